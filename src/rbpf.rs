@@ -163,24 +163,21 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
-        let report = self.weigh_by(
-            observation,
-            |proposal, _, particle, stream| proposal.propose(particle, control, observation, stream),
-            |proposal, _, particle, streams| proposal.propose_copies(particle, control, observation, streams),
-        );
+        let report = self.weigh_by(observation, |proposal, _, particle, streams| {
+            proposal.propose_copies(particle, control, observation, streams)
+        });
         Report { refused_control: !self.proposal.can_drive(control), ..report }
     }
 
-    /// [`Self::weigh`] with other draws: `propose` for the particle of a slot, and `copies` for equal particles in the slots from a first one on.
+    /// [`Self::weigh`] with other draws: `propose` for equal particles in the slots from a first one on, from the stream of each.
     fn weigh_by(
         &mut self,
         observation: &M::Observation,
-        propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
-        copies: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
+        propose: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
     ) -> Report<M::Association> {
         (self.step, self.resamplings) = (self.step + 1, 0);
         let ignored = self.particles[0].map.ignored(observation);
-        let proposed = self.propose_and_map(observation, propose, copies);
+        let proposed = self.propose_and_map(observation, propose);
         self.extend_paths();
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         let log_evidence = self.reweigh(&log_increments);
@@ -192,22 +189,12 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
     fn propose_and_map(
         &mut self,
         observation: &M::Observation,
-        propose: impl Fn(&P, usize, &Particle<M>, &mut Stream) -> Proposed<M::Association> + Sync + Send,
-        copies: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
+        propose: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
     ) -> Vec<Proposed<M::Association>> {
         let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
-        let stream = |slot: usize| Stream::at(seed, Purpose::PROPOSAL, step, slot as u32);
-        let move_to = |particle: &mut Particle<M>, proposed: &Proposed<M::Association>| {
-            particle.world_from_robot = proposed.world_from_robot;
-            particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
-        };
-        let copied = core::mem::take(&mut self.copied);
+        let mut copied = core::mem::take(&mut self.copied);
         if copied.is_empty() {
-            return self.executor.map(&mut self.particles, |slot, particle| {
-                let proposed = propose(proposal, slot, particle, &mut stream(slot));
-                move_to(particle, &proposed);
-                proposed
-            });
+            copied = (0..self.particles.len() as u32).collect();
         }
         let (mut alike, mut rest) = (Vec::new(), &mut self.particles[..]);
         for slots in copied.chunk_by(|a, b| a == b) {
@@ -217,9 +204,14 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
             rest = others;
         }
         let proposed = self.executor.map(&mut alike, |_, (first, particles)| {
-            let mut streams: Vec<Stream> = (0..particles.len()).map(|k| stream(*first + k)).collect();
-            let proposed = copies(proposal, *first, &particles[0], &mut streams);
-            particles.iter_mut().zip(&proposed).for_each(|(particle, proposed)| move_to(particle, proposed));
+            let slots = *first..*first + particles.len();
+            let mut streams: Vec<_> =
+                slots.map(|slot| Stream::at(seed, Purpose::PROPOSAL, step, slot as u32)).collect();
+            let proposed = propose(proposal, *first, &particles[0], &mut streams);
+            for (particle, proposed) in particles.iter_mut().zip(&proposed) {
+                particle.world_from_robot = proposed.world_from_robot;
+                particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
+            }
             proposed
         });
         proposed.into_iter().flatten().collect()

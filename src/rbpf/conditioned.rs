@@ -3,9 +3,7 @@
 use super::{Rbpf, Report};
 use crate::geometry::Pose2;
 use crate::map::ConditionalMap;
-use crate::particle::Particle;
 use crate::proposal::Retrace;
-use crate::random::Stream;
 
 impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
     /// [`Rbpf::weigh`], but for two things. The last slot does not draw its pose: it takes this one. And every slot pays for the very pose
@@ -17,15 +15,15 @@ impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
         given: &Pose2,
     ) -> Report<M::Association> {
         let last = self.particles().len() - 1;
-        let one = |proposal: &P, slot, particle: &Particle<M>, stream: &mut Stream| {
-            if slot == last {
-                proposal.retrace(particle, control, observation, given)
-            } else {
-                proposal.draw_and_retrace(particle, control, observation, stream)
-            }
-        };
-        let report = self.weigh_by(observation, one, |proposal, first, particle, streams| {
-            (first..).zip(streams).map(|(slot, stream)| one(proposal, slot, particle, stream)).collect()
+        let report = self.weigh_by(observation, |proposal, first, particle, streams| {
+            let one = |(slot, stream)| {
+                if slot == last {
+                    proposal.retrace(particle, control, observation, given)
+                } else {
+                    proposal.draw_and_retrace(particle, control, observation, stream)
+                }
+            };
+            (first..).zip(streams).map(one).collect()
         });
         Report { refused_control: !self.proposal.can_drive(control), ..report }
     }
