@@ -2,7 +2,7 @@
 //! write with, in two weights (`OUT_DIR/font.rs`), so that they carry no parser of fonts. Coordinates are the font's own units, y up.
 
 use fastslam_figures_catalogue::build;
-use std::{collections::BTreeSet, env, fmt::Write, fs, path::Path};
+use std::{collections::BTreeSet, env, fs, path::Path};
 use ttf_parser::{Face, OutlineBuilder};
 
 /// What is written besides the words: by readers, and in formulas.
@@ -15,36 +15,27 @@ const LETTERS: &str = "Üßäöü„“”";
 /// Units of the tables in an em: a quarter of Inter's, which is a 40th of a pixel in text of 28 px.
 const UNITS: f32 = 704.0;
 
-/// Outlines as `src/font.rs` reads them: each a row of verbs, and of steps from point to point.
-struct Outlines {
+/// The outline of a character, in units: its verbs, and how far each of its points is from the one before.
+#[derive(Default)]
+struct Outline {
     scale: f32,
     last: [i32; 2],
     verbs: String,
-    steps: Vec<i8>,
+    steps: Vec<[i32; 2]>,
 }
 
-impl Outlines {
+impl Outline {
     fn put(&mut self, verb: char, points: &[[f32; 2]]) {
         self.verbs.push(verb);
         for point in points {
-            for (axis, &coordinate) in point.iter().enumerate() {
-                let unit = (coordinate * self.scale).round() as i32;
-                let mut step = unit - std::mem::replace(&mut self.last[axis], unit);
-                // A byte at the end of the range is followed by more of the same step.
-                loop {
-                    let part = step.clamp(-128, 127) as i8;
-                    self.steps.push(part);
-                    step -= i32::from(part);
-                    if !matches!(part, -128 | 127) {
-                        break;
-                    }
-                }
-            }
+            let [x, y] = point.map(|coordinate| (coordinate * self.scale).round() as i32);
+            let [last_x, last_y] = std::mem::replace(&mut self.last, [x, y]);
+            self.steps.push([x - last_x, y - last_y]);
         }
     }
 }
 
-impl OutlineBuilder for Outlines {
+impl OutlineBuilder for Outline {
     fn move_to(&mut self, x: f32, y: f32) {
         self.put('M', &[[x, y]]);
     }
@@ -60,33 +51,48 @@ impl OutlineBuilder for Outlines {
     fn close(&mut self) {} // a fill closes every contour
 }
 
-/// A weight's characters, in code point order.
-fn table(name: &str, weight: &str, characters: &BTreeSet<char>) -> String {
+/// A step in one axis as bytes: one at the end of its range is followed by more of the same step.
+fn bytes(mut step: i32, into: &mut Vec<i8>) {
+    loop {
+        let part = step.clamp(-128, 127) as i8;
+        into.push(part);
+        step -= i32::from(part);
+        if !matches!(part, -128 | 127) {
+            break;
+        }
+    }
+}
+
+/// A weight's table, and the outlines of its characters, of which those of a weight before are told from: the letters of two weights differ by
+/// little.
+fn table(name: &str, weight: &str, characters: &BTreeSet<char>, before: &[Outline]) -> (String, Vec<Outline>) {
     let file = &format!("fonts/Inter-{weight}-subset.otf");
     println!("cargo:rerun-if-changed={file}");
     let data = fs::read(file).unwrap_or_else(|e| panic!("{file}: {e}"));
     let face = Face::parse(&data, 0).unwrap_or_else(|e| panic!("{file}: {e}"));
     let scale = UNITS / f32::from(face.units_per_em());
     let units = |x: f32| (x * scale).round() as i32;
-    let mut all = Outlines { scale, last: [0, 0], verbs: String::new(), steps: Vec::new() };
-    let mut rows = String::new();
-    let glyph =
-        |&c: &char| (c, face.glyph_index(c).unwrap_or_else(|| panic!("{file} has no {c:?}: see fonts/subset.py")));
-    for (character, glyph) in characters.iter().map(glyph) {
-        let advance = units(face.glyph_hor_advance(glyph).unwrap_or(0).into());
-        let (verbs, steps) = (all.verbs.len(), all.steps.len());
-        writeln!(rows, "    Glyph {{ character: {character:?}, advance: {advance}, verbs: {verbs}, steps: {steps} }},")
-            .unwrap();
-        all.last = [0, 0];
-        face.outline_glyph(glyph, &mut all);
-        all.verbs.push('E');
+    let (mut advances, mut verbs, mut steps, mut outlines) = (Vec::new(), String::new(), Vec::new(), Vec::new());
+    for (rank, &c) in characters.iter().enumerate() {
+        let glyph = face.glyph_index(c).unwrap_or_else(|| panic!("{file} has no {c:?}: see fonts/subset.py"));
+        advances.push(units(face.glyph_hor_advance(glyph).unwrap_or(0).into()));
+        let mut outline = Outline { scale, ..Outline::default() };
+        face.outline_glyph(glyph, &mut outline);
+        verbs += &outline.verbs;
+        verbs.push('E');
+        let known = before.get(rank).map_or(&[][..], |outline| &outline.steps);
+        for (k, step) in outline.steps.iter().enumerate() {
+            let known = known.get(k).copied().unwrap_or_default();
+            step.iter().zip(known).for_each(|(step, known)| bytes(step - known, &mut steps));
+        }
+        outlines.push(outline);
     }
     let cap_height = units(face.capital_height().expect("the font tells its cap height").into());
-    let Outlines { verbs, steps, .. } = all;
-    format!(
-        "pub(super) static {name}: Table = Table {{\n  units_per_em: {UNITS:?}, cap_height: {cap_height},\n  glyphs: &[\n{rows}  ],\n  \
-         verbs: b{verbs:?},\n  steps: &{steps:?},\n}};\n"
-    )
+    let table = format!(
+        "pub(super) static {name}: Table = Table {{\n  cap_height: {cap_height},\n  advances: &{advances:?},\n  verbs: \
+         b{verbs:?},\n  steps: &{steps:?},\n}};\n"
+    );
+    (table, outlines)
 }
 
 fn main() {
@@ -94,7 +100,11 @@ fn main() {
     build::write_words(&[]);
     let mut characters: BTreeSet<char> = (' '..='~').chain(SIGNS.chars()).chain(LETTERS.chars()).collect();
     characters.extend(build::characters(Path::new("words")));
-    let [regular, bold] =
-        [("REGULAR", "Regular"), ("SEMI_BOLD", "SemiBold")].map(|(name, weight)| table(name, weight, &characters));
-    fs::write(Path::new(&env::var_os("OUT_DIR").unwrap()).join("font.rs"), regular + &bold).unwrap();
+    let (regular, outlines) = table("REGULAR", "Regular", &characters, &[]);
+    let (bold, _) = table("SEMI_BOLD", "SemiBold", &characters, &outlines);
+    let characters: Vec<char> = characters.into_iter().collect();
+    let em = format!("pub(super) const UNITS_PER_EM: f32 = {UNITS:?};\n");
+    let characters = format!("pub(super) static CHARACTERS: &[char] = &{characters:?};\n");
+    fs::write(Path::new(&env::var_os("OUT_DIR").unwrap()).join("font.rs"), em + &characters + &regular + &bold)
+        .unwrap();
 }

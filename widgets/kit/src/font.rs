@@ -3,6 +3,8 @@
 //! A figure writes with these and not with the browser's fonts, so that its text has the same pixels on every machine and
 //! is as crisp as its lines at any zoom. The subset's digits are tabular: a number that changes keeps its width.
 
+use std::sync::LazyLock;
+use tables::{CHARACTERS, UNITS_PER_EM};
 use tiny_skia::PathBuilder;
 
 /// Weight of the strokes.
@@ -16,31 +18,32 @@ pub enum Weight {
 
 /// Width of a line of text at this font size, in the unit of `size`. Characters the font lacks are as wide as `?`.
 pub fn measure(text: &str, size: f64, weight: Weight) -> f64 {
-    let table = weight.table();
-    let units: u32 = text.chars().map(|c| u32::from(table.glyph(c).advance)).sum();
-    f64::from(units) * size / f64::from(table.units_per_em)
+    let advances = weight.table().advances;
+    let units: u32 = text.chars().map(|c| u32::from(advances[rank(c)])).sum();
+    f64::from(units) * size / f64::from(UNITS_PER_EM)
 }
 
 /// Height of a capital letter at this font size, in the unit of `size`.
 pub fn cap_height(size: f64, weight: Weight) -> f64 {
-    let table = weight.table();
-    f64::from(table.cap_height) * size / f64::from(table.units_per_em)
+    f64::from(weight.table().cap_height) * size / f64::from(UNITS_PER_EM)
 }
 
 /// Adds the outlines of a line of text at this font size to a path: its baseline begins at `origin`; y down, as in the picture.
 pub fn outline(path: &mut PathBuilder, text: &str, weight: Weight, size: f32, origin: [f32; 2]) {
-    let table = weight.table();
-    let unit = size / table.units_per_em;
+    let (advances, glyphs) = (weight.table().advances, &GLYPHS[weight as usize]);
+    let unit = size / UNITS_PER_EM;
     let [mut pen, baseline] = origin;
-    for glyph in text.chars().map(|c| table.glyph(c)) {
-        let mut steps = table.steps[usize::from(glyph.steps)..].iter();
+    for rank in text.chars().map(rank) {
+        let glyph = &glyphs[rank];
+        let mut steps = glyph.steps.iter();
         let mut last = [0_i16; 2];
         let mut point = || {
-            last = last.map(|from| from + step(&mut steps));
+            let step = steps.next().copied().unwrap_or_default();
+            last = [last[0] + step[0], last[1] + step[1]];
             let [x, y] = last.map(f32::from);
             [pen + x * unit, baseline - y * unit]
         };
-        for verb in &table.verbs[usize::from(glyph.verbs)..] {
+        for verb in glyph.verbs {
             match verb {
                 b'M' => {
                     let [x, y] = point();
@@ -50,14 +53,13 @@ pub fn outline(path: &mut PathBuilder, text: &str, weight: Weight, size: f32, or
                     let [x, y] = point();
                     path.line_to(x, y);
                 }
-                b'C' => {
+                _ => {
                     let [[x1, y1], [x2, y2], [x, y]] = [point(), point(), point()];
                     path.cubic_to(x1, y1, x2, y2, x, y);
                 }
-                _ => break,
             }
         }
-        pen += f32::from(glyph.advance) * unit;
+        pen += f32::from(advances[rank]) * unit;
     }
 }
 
@@ -74,34 +76,51 @@ fn step<'a>(bytes: &mut impl Iterator<Item = &'a i8>) -> i16 {
 }
 
 /// True if the font has this character.
-pub fn has(character: char, weight: Weight) -> bool {
-    weight.table().find(character).is_some()
+pub fn has(character: char) -> bool {
+    CHARACTERS.binary_search(&character).is_ok()
 }
 
-/// What `build.rs` writes for one weight.
+/// Rank of a character in the tables; of one that they lack, that of `?`.
+fn rank(character: char) -> usize {
+    let found = CHARACTERS.binary_search(&character).or_else(|_| CHARACTERS.binary_search(&'?'));
+    found.expect("the font has a question mark")
+}
+
+/// What `build.rs` writes for one weight: a row for each of [`CHARACTERS`].
 struct Table {
-    units_per_em: f32,
     cap_height: i16,
-    glyphs: &'static [Glyph],
+    advances: &'static [u16],
+    /// `M`, `L` and `C`, up to an `E`.
     verbs: &'static [u8],
+    /// From point to point; of the second weight, what each has more than that of the first.
     steps: &'static [i8],
 }
 
-/// Where a character's outline begins in its table, in code point order.
+/// The outline of a character: its verbs, and how far each of its points is from the one before.
 struct Glyph {
-    character: char,
-    advance: u16,
-    verbs: u16,
-    steps: u16,
+    verbs: &'static [u8],
+    steps: Vec<[i16; 2]>,
 }
 
-impl Table {
-    fn find(&self, character: char) -> Option<&Glyph> {
-        self.glyphs.binary_search_by_key(&character, |g| g.character).ok().map(|i| &self.glyphs[i])
-    }
+/// By weight and rank.
+static GLYPHS: LazyLock<[Vec<Glyph>; 2]> = LazyLock::new(|| {
+    let regular = tables::REGULAR.glyphs(&[]);
+    let semi_bold = tables::SEMI_BOLD.glyphs(&regular);
+    [regular, semi_bold]
+});
 
-    fn glyph(&self, character: char) -> &Glyph {
-        self.find(character).or_else(|| self.find('?')).expect("the font has a question mark")
+impl Table {
+    /// Its outlines, where they are told from those of another weight.
+    fn glyphs(&self, before: &[Glyph]) -> Vec<Glyph> {
+        let mut bytes = self.steps.iter();
+        let read = |(verbs, rank): (&'static [u8], usize)| {
+            let known = before.get(rank).map_or(&[][..], |glyph| &glyph.steps);
+            let points: usize = verbs.iter().map(|verb| if *verb == b'C' { 3 } else { 1 }).sum();
+            let steps =
+                (0..points).map(|k| known.get(k).copied().unwrap_or_default().map(|axis| axis + step(&mut bytes)));
+            Glyph { verbs, steps: steps.collect() }
+        };
+        self.verbs.split(|verb| *verb == b'E').zip(0..CHARACTERS.len()).map(read).collect()
     }
 }
 
@@ -115,7 +134,7 @@ impl Weight {
 }
 
 mod tables {
-    use super::{Glyph, Table};
+    use super::Table;
     include!(concat!(env!("OUT_DIR"), "/font.rs"));
 }
 
@@ -126,10 +145,8 @@ mod tests {
     #[test]
     fn every_character_our_figures_write_is_embedded() {
         let symbols = "←→×±σαη√²³°–—−·…≤≥≈’†μνφθδκχπρτωΔΛΣΩ∂∑∏∫∞≠½¼⁻¹⁺⁰₀₁₂₃ₜₓᵢⱼ";
-        for weight in [Weight::Regular, Weight::SemiBold] {
-            for character in (' '..='~').chain(symbols.chars()) {
-                assert!(has(character, weight), "{character}");
-            }
+        for character in (' '..='~').chain(symbols.chars()) {
+            assert!(has(character), "{character}");
         }
     }
 
