@@ -4,7 +4,7 @@
 //! together again in the order of the seeds.
 
 use crate::{
-    model::{FigureError, Group},
+    model::{FigureError, Group, ParamSpec},
     recipe::{self, Recipe},
 };
 use core::ops::Range;
@@ -43,9 +43,13 @@ pub struct Counted {
 /// # Errors
 /// For a parameter that is not among these, or a value that is refused.
 pub fn recipe<R: Recipe>(setting: &Setting) -> Result<R, FigureError> {
-    let specs = recipe::specs(&R::default());
-    let shown = |name: &str| specs.iter().any(|spec| spec.name == name && spec.group == Group::View);
-    let numbers: Vec<_> = setting.iter().filter(|(name, _)| !shown(name)).cloned().collect();
+    let numbers = numbers(setting, &recipe::specs(&R::default()));
     let (recipe, refused) = recipe::with(&R::default(), &numbers);
     refused.into_iter().next().map_or(Ok(recipe), Err)
+}
+
+/// What a setting says, but for the view.
+fn numbers(setting: &Setting, specs: &[ParamSpec]) -> Vec<(String, String)> {
+    let shown = |name: &str| specs.iter().any(|spec| spec.name == name && spec.group == Group::View);
+    setting.iter().filter(|(name, _)| !shown(name)).cloned().collect()
 }

@@ -28,6 +28,7 @@
 //! let field: Field<u32, f64> = Field { get: |_| 0.0 };
 //! ```
 
+mod held;
 mod menu;
 mod place;
 
@@ -38,15 +39,12 @@ use crate::decimal;
 use crate::model::FigureError;
 use crate::param::{Choice, Group, Kind, ParamSpec, Value, quoted, unknown};
 use crate::words::kit;
+use held::{Chosen, Held, Written};
 use std::fmt::Display;
 use std::str::FromStr;
 
-type Get<R> = Box<dyn Fn(&R) -> Value>;
-type Set<R> = Box<dyn Fn(&mut R, Value)>;
 /// A name for readers in a state, or `None` for the usual one.
 type Title<R> = fn(&R) -> Option<&'static str>;
-/// What is allowed, of a text that means nothing.
-type Read = Box<dyn Fn(&str) -> Result<(), String>>;
 
 /// A row of a figure's table: a parameter, and where its recipe holds it.
 pub struct Param<R> {
@@ -57,10 +55,7 @@ pub struct Param<R> {
     title: Option<Title<R>>,
     /// Whether it means anything, where that depends on the state.
     applies: Option<fn(&R) -> bool>,
-    get: Get<R>,
-    set: Set<R>,
-    /// Of a text, whether it means anything.
-    read: Option<Read>,
+    held: Held<R>,
 }
 
 /// Everything that a link can say of a figure, and nothing else.
@@ -78,48 +73,40 @@ pub trait Recipe: Clone + PartialEq + Default + 'static {
 }
 
 impl<R: Recipe> Param<R> {
-    fn new(name: &'static str, title: &'static str, kind: Kind, get: Get<R>, set: Set<R>, help: &'static str) -> Self {
+    #[inline(never)] // a table of rows that are built in place takes three times as much
+    fn new(name: &'static str, title: &'static str, kind: Kind, held: Held<R>, help: &'static str) -> Self {
         let range = if matches!(kind, Kind::Choice | Kind::Text) { (0.0, 0.0, 0.0) } else { (0.0, 1.0, 1.0) };
         let spec = ParamSpec::new(name, title, kind, range, help);
-        Self { spec, most: None, title: None, applies: None, get, set, read: None }
+        Self { spec, most: None, title: None, applies: None, held }
     }
 
     /// A number of the setup, from the first of the range to the second; a slider goes by the third.
+    #[inline(never)]
     pub fn number(
         name: &'static str,
         title: &'static str,
         unit: &'static str,
         (min, max, step): (f64, f64, f64),
-        Field { get, set }: Field<R, f64>,
+        field: Field<R, f64>,
         help: &'static str,
     ) -> Self {
-        let set: Set<R> = Box::new(move |recipe, value| {
-            if let Value::Number(x) = value {
-                set(recipe, x);
-            }
-        });
-        let param = Self::new(name, title, Kind::Number, Box::new(move |recipe| Value::Number(get(recipe))), set, help);
+        let param = Self::new(name, title, Kind::Number, Held::Number(field), help);
         // A sum of decimals is a little beside the decimal that is written for it.
         let [min, max] = [min, max].map(decimal::as_written);
         Self { spec: ParamSpec { unit, min, max, step, ..param.spec }, ..param }
     }
 
     /// A whole number of the setup, from the first of the range to the second.
+    #[inline(never)]
     pub fn integer<I: Whole>(
         name: &'static str,
         title: &'static str,
         unit: &'static str,
         (min, max): (u32, u32),
-        Field { get, set }: Field<R, I>,
+        field: Field<R, I>,
         help: &'static str,
     ) -> Self {
-        let set: Set<R> = Box::new(move |recipe, value| {
-            if let Value::Number(x) = value {
-                set(recipe, I::of(x));
-            }
-        });
-        let get: Get<R> = Box::new(move |recipe| Value::Number(get(recipe).number()));
-        let param = Self::new(name, title, Kind::Integer, get, set, help);
+        let param = Self::new(name, title, Kind::Integer, I::held(field), help);
         Self { spec: ParamSpec { unit, min: min.into(), max: max.into(), ..param.spec }, ..param }
     }
 
@@ -129,38 +116,32 @@ impl<R: Recipe> Param<R> {
     }
 
     /// A whole number from 0 on, up to a bound that depends on rows above; or none of them, which is the word, and −1.
-    pub fn integer_or<I: Whole>(
+    #[inline(never)]
+    pub fn integer_or(
         name: &'static str,
         title: &'static str,
         (word, word_title): (&'static str, &'static str),
         most: fn(&R) -> f64,
-        Field { get, set }: Field<R, Option<I>>,
+        field: Field<R, Option<u32>>,
         help: &'static str,
     ) -> Self {
-        let set: Set<R> = Box::new(move |recipe, value| {
-            set(recipe, if let Value::Number(x) = value { (x >= 0.0).then(|| I::of(x)) } else { None });
-        });
-        let get: Get<R> = Box::new(move |recipe| get(recipe).map_or(Value::Word(0), |i| Value::Number(i.number())));
-        let param = Self::new(name, title, Kind::Integer, get, set, help);
+        let param = Self::new(name, title, Kind::Integer, Held::U32OrNone(field), help);
         let choices = vec![Choice::new(word, word_title)];
         Self { spec: ParamSpec { min: -1.0, choices, ..param.spec }, ..param }.at_most(most)
     }
 
     /// A number in a range, or none, which is the word.
+    #[inline(never)]
     pub fn number_or(
         name: &'static str,
         title: &'static str,
         unit: &'static str,
         (min, max, step): (f64, f64, f64),
         (word, word_title): (&'static str, &'static str),
-        Field { get, set }: Field<R, Option<f64>>,
+        field: Field<R, Option<f64>>,
         help: &'static str,
     ) -> Self {
-        let set: Set<R> = Box::new(move |recipe, value| {
-            set(recipe, if let Value::Number(x) = value { Some(x) } else { None });
-        });
-        let get: Get<R> = Box::new(move |recipe| get(recipe).map_or(Value::Word(0), Value::Number));
-        let param = Self::new(name, title, Kind::Number, get, set, help);
+        let param = Self::new(name, title, Kind::Number, Held::NumberOrNone(field), help);
         let choices = vec![Choice::new(word, word_title)];
         Self { spec: ParamSpec { unit, min, max, step, choices, ..param.spec }, ..param }
     }
@@ -170,39 +151,22 @@ impl<R: Recipe> Param<R> {
         name: &'static str,
         title: &'static str,
         Menu { choices, meanings }: Menu<T>,
-        Field { get, set }: Field<R, T>,
+        field: Field<R, T>,
         help: &'static str,
     ) -> Self {
-        let words = meanings.clone();
-        let get: Get<R> = Box::new(move |recipe| {
-            let now = get(recipe);
-            Value::Word(meanings.iter().position(|meaning| *meaning == now).unwrap_or(0))
-        });
-        let set: Set<R> = Box::new(move |recipe, value| {
-            if let Value::Word(rank) = value {
-                set(recipe, words[rank]);
-            }
-        });
-        let param = Self::new(name, title, Kind::Choice, get, set, help);
+        let held = Held::Other(Box::new(Chosen { meanings, field }));
+        let param = Self::new(name, title, Kind::Choice, held, help);
         Self { spec: ParamSpec { choices, ..param.spec }, ..param }
     }
 
     /// A checkbox.
-    pub fn flag(
-        name: &'static str,
-        title: &'static str,
-        Field { get, set }: Field<R, bool>,
-        help: &'static str,
-    ) -> Self {
-        let set: Set<R> = Box::new(move |recipe, value| {
-            if let Value::Flag(on) = value {
-                set(recipe, on);
-            }
-        });
-        Self::new(name, title, Kind::Flag, Box::new(move |recipe| Value::Flag(get(recipe))), set, help)
+    #[inline(never)]
+    pub fn flag(name: &'static str, title: &'static str, field: Field<R, bool>, help: &'static str) -> Self {
+        Self::new(name, title, Kind::Flag, Held::Flag(field), help)
     }
 
     /// A button that stays pressed.
+    #[inline(never)]
     pub fn toggle(name: &'static str, title: &'static str, field: Field<R, bool>, help: &'static str) -> Self {
         let param = Self::flag(name, title, field, help);
         Self { spec: ParamSpec { kind: Kind::Toggle, ..param.spec }, ..param }
@@ -212,53 +176,55 @@ impl<R: Recipe> Param<R> {
     pub fn text<T: Display + FromStr + 'static>(
         name: &'static str,
         title: &'static str,
-        Field { get, set }: Field<R, T>,
+        field: Field<R, T>,
         allowed: fn(T::Err) -> String,
         help: &'static str,
     ) -> Self {
-        let set: Set<R> = Box::new(move |recipe, value| {
-            if let Value::Text(text) = value
-                && let Ok(read) = text.parse()
-            {
-                set(recipe, read);
-            }
-        });
-        let get: Get<R> = Box::new(move |recipe| Value::Text(get(recipe).to_string()));
-        let read: Read = Box::new(move |text| text.parse::<T>().map(drop).map_err(allowed));
-        Self { read: Some(read), ..Self::new(name, title, Kind::Text, get, set, help) }
+        Self::new(name, title, Kind::Text, Held::Other(Box::new(Written { field, allowed })), help)
     }
 
     /// The same as a parameter of what is shown.
-    pub fn view(self) -> Self {
-        Self { spec: ParamSpec { group: Group::View, ..self.spec }, ..self }
+    #[inline(never)]
+    pub fn view(mut self) -> Self {
+        self.spec.group = Group::View;
+        self
     }
 
     /// The same set by its box alone: where there are twenty numbers, a slider each is too much.
-    pub fn without_slider(self) -> Self {
-        Self { spec: ParamSpec { slider: false, ..self.spec }, ..self }
+    #[inline(never)]
+    pub fn without_slider(mut self) -> Self {
+        self.spec.slider = false;
+        self
     }
 
     /// The same in first sight: of a figure's parameters one or two that it is about.
-    pub fn in_sight(self) -> Self {
-        Self { spec: ParamSpec { sight: true, ..self.spec }, ..self }
+    #[inline(never)]
+    pub fn in_sight(mut self) -> Self {
+        self.spec.sight = true;
+        self
     }
 
     /// The same offered only in states where it means anything.
+    #[inline(never)]
     pub fn only_where(self, applies: fn(&R) -> bool) -> Self {
         Self { applies: Some(applies), ..self }
     }
 
     /// The same folded away, among *More settings*.
-    pub fn folded(self) -> Self {
-        Self { spec: ParamSpec { folded: true, ..self.spec }, ..self }
+    #[inline(never)]
+    pub fn folded(mut self) -> Self {
+        self.spec.folded = true;
+        self
     }
 
     /// The same up to a bound that depends on rows above.
+    #[inline(never)]
     pub fn at_most(self, most: fn(&R) -> f64) -> Self {
         Self { most: Some(most), ..self }
     }
 
     /// The same under another name where the state asks for that.
+    #[inline(never)]
     pub fn titled(self, title: Title<R>) -> Self {
         Self { title: Some(title), ..self }
     }
@@ -268,13 +234,13 @@ impl<R: Recipe> Param<R> {
         let most = self.most.map(|most| most(recipe));
         let title = self.title.and_then(|title| title(recipe));
         let applies = self.applies.is_none_or(|applies| applies(recipe));
-        in_state(&self.spec, (self.get)(&R::default()), most, title, applies)
+        in_state(&self.spec, self.held.get(&R::default()), most, title, applies)
     }
 
     /// Brings a value that is out of its range to the nearest in it, or where there is a word besides, to that.
     fn confine(&self, recipe: &mut R) {
-        if let Some(near) = near(&self.spec(recipe), &(self.get)(recipe)) {
-            (self.set)(recipe, near);
+        if let Some(near) = near(&self.spec(recipe), &self.held.get(recipe)) {
+            self.held.set(recipe, near);
         }
     }
 }
@@ -300,8 +266,11 @@ fn near(spec: &ParamSpec, value: &Value) -> Option<Value> {
 
 /// A table and the recipe that is filled by it, of whichever figure: what is done with the rows is compiled once, and not for each.
 trait Rows {
-    /// Brings the value of a row into its range, as the rows above it have it now; its range, and what reads its texts. None beyond the last.
-    fn confined(&mut self, row: usize) -> Option<(ParamSpec, Option<&Read>)>;
+    /// Brings the value of a row into its range, as the rows above it have it now; its range. None beyond the last.
+    fn confined(&mut self, row: usize) -> Option<ParamSpec>;
+
+    /// Of a text, what is allowed, where it means nothing.
+    fn read(&self, row: usize, text: &str) -> Result<(), String>;
 
     fn set(&mut self, row: usize, value: Value);
 }
@@ -312,14 +281,18 @@ struct Filled<R> {
 }
 
 impl<R: Recipe> Rows for Filled<R> {
-    fn confined(&mut self, row: usize) -> Option<(ParamSpec, Option<&Read>)> {
+    fn confined(&mut self, row: usize) -> Option<ParamSpec> {
         let param = self.table.get(row)?;
         param.confine(&mut self.recipe);
-        Some((param.spec(&self.recipe), param.read.as_ref()))
+        Some(param.spec(&self.recipe))
+    }
+
+    fn read(&self, row: usize, text: &str) -> Result<(), String> {
+        self.table[row].held.read(text)
     }
 
     fn set(&mut self, row: usize, value: Value) {
-        (self.table[row].set)(&mut self.recipe, value);
+        self.table[row].held.set(&mut self.recipe, value);
     }
 }
 
@@ -327,12 +300,11 @@ impl<R: Recipe> Rows for Filled<R> {
 fn fill(rows: &mut dyn Rows, values: &[(String, String)]) -> (Vec<FigureError>, usize) {
     let (mut refused, mut known) = (Vec::new(), 0);
     let mut row = 0;
-    while let Some((spec, read)) = rows.confined(row) {
+    while let Some(spec) = rows.confined(row) {
         let named = values.iter().filter(|(name, _)| name == spec.name);
-        let meant: Vec<_> = named.map(|(_, text)| meaning(&spec, read, text)).collect();
-        known += meant.len();
-        for value in meant {
-            match value {
+        for (_, text) in named {
+            known += 1;
+            match meaning(&spec, text, |text| rows.read(row, text)) {
                 Ok(value) => rows.set(row, value),
                 Err(error) => refused.push(error),
             }
@@ -343,9 +315,9 @@ fn fill(rows: &mut dyn Rows, values: &[(String, String)]) -> (Vec<FigureError>, 
 }
 
 /// The value that `text` means, or what is wrong with it.
-fn meaning(spec: &ParamSpec, read: Option<&Read>, text: &str) -> Result<Value, FigureError> {
+fn meaning(spec: &ParamSpec, text: &str, read: impl FnOnce(&str) -> Result<(), String>) -> Result<Value, FigureError> {
     let value = spec.check(text)?;
-    if let (Some(read), Value::Text(text)) = (read, &value) {
+    if let Value::Text(text) = &value {
         read(text).map_err(|allowed| FigureError::new(spec.name, quoted(text), allowed))?;
     }
     Ok(value)
@@ -364,11 +336,12 @@ pub fn specs<R: Recipe>(recipe: &R) -> Vec<ParamSpec> {
 
 /// The values of all parameters by name, as text.
 pub fn values<R: Recipe>(recipe: &R) -> Vec<(&'static str, String)> {
-    R::table().iter().map(|param| (param.spec.name, param.spec.text((param.get)(recipe)))).collect()
+    R::table().iter().map(|param| (param.spec.name, param.spec.text(param.held.get(recipe)))).collect()
 }
 
 /// The recipe with these values by name, and what was refused of them. Row by row, whatever the order of the values: a row finds the ones
 /// above it as they will be, and what no longer fits to them is brought into its range.
+#[inline(never)] // figures with a job call it twice
 pub fn with<R: Recipe>(before: &R, values: &[(String, String)]) -> (R, Vec<FigureError>) {
     let mut filled = Filled { table: R::table(), recipe: before.clone() };
     let (mut refused, known) = fill(&mut filled, values);

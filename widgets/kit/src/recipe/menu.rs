@@ -13,9 +13,12 @@ pub struct Menu<T> {
 impl<T: 'static> Menu<T> {
     /// Words, names and meanings.
     pub fn new(items: impl IntoIterator<Item = (impl Display, &'static str, T)>) -> Self {
-        let items = items.into_iter().map(|(word, title, meaning)| (Choice::new(word, title), meaning));
-        let (choices, meanings) = items.unzip();
-        Self { choices, meanings }
+        let mut menu = Self { choices: Vec::new(), meanings: Vec::new() };
+        for (word, title, meaning) in items {
+            menu.choices.push(Choice::new(word, title));
+            menu.meanings.push(meaning);
+        }
+        menu
     }
 
     /// All variants of an enum by the words that it has for itself, `first` before the others; a variant without a name for
@@ -24,8 +27,12 @@ impl<T: 'static> Menu<T> {
     where
         T: VariantArray + Display + Copy + PartialEq,
     {
-        let others = T::VARIANTS.iter().copied().filter(|variant| *variant != first);
-        Self::new(core::iter::once(first).chain(others).map(|variant| (variant, title(variant), variant)))
+        let mut menu = Self::new([(first, title(first), first)]);
+        for variant in T::VARIANTS.iter().filter(|variant| **variant != first) {
+            menu.choices.push(Choice::new(variant, title(*variant)));
+            menu.meanings.push(*variant);
+        }
+        menu
     }
 
     /// The same in another type, after a word and a meaning of its own.

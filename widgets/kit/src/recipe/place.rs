@@ -1,5 +1,7 @@
 //! Where a recipe holds what a row of its table is about.
 
+use super::held::Held;
+
 /// A place in a recipe: how its value is read, and how it is written. [`crate::field!`] makes one of a path.
 pub struct Field<R, T> {
     /// Its value.
@@ -19,25 +21,20 @@ macro_rules! field {
     };
 }
 
-/// A whole number of a recipe, whatever its type.
-pub trait Whole: Copy + 'static {
-    /// From a number that is whole and in its range.
-    fn of(x: f64) -> Self;
-    /// As a number: all that parameters hold are below 2⁵³.
-    fn number(self) -> f64;
+/// A whole number of a recipe, whatever its type; all that parameters hold are below 2⁵³.
+pub trait Whole: Sized {
+    /// Where it is held.
+    fn held<R>(field: Field<R, Self>) -> Held<R>;
 }
 
 macro_rules! whole {
-    ($($type:ty)*) => { $(
+    ($($type:ty: $held:ident)*) => { $(
         impl Whole for $type {
-            fn of(x: f64) -> Self {
-                x as Self
-            }
-            fn number(self) -> f64 {
-                self as f64
+            fn held<R>(field: Field<R, Self>) -> Held<R> {
+                Held::$held(field)
             }
         }
     )* };
 }
 
-whole!(u32 u64 usize);
+whole!(u32: U32 u64: U64 usize: Usize);
