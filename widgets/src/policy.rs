@@ -29,8 +29,12 @@ impl Kind {
     }
 
     /// What the policy calls itself, up to its threshold.
-    fn word(self) -> String {
-        self.with(THRESHOLD).to_string().split(':').take(1).collect()
+    fn word(self) -> &'static str {
+        match self {
+            Kind::Below => "neff",
+            Kind::Always => "always",
+            Kind::Never => "never",
+        }
     }
 }
 
@@ -94,4 +98,17 @@ pub fn rows<R: Chosen>() -> [Param<R>; 2] {
     )
     .only_where(|recipe: &R| kind(recipe.chosen().0) == Kind::Below);
     [policy, threshold]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kind_has_the_word_by_which_its_policy_is_read() {
+        for kind in [Kind::Below, Kind::Always, Kind::Never] {
+            let said = kind.with(THRESHOLD).to_string();
+            assert_eq!(said.split(':').next(), Some(kind.word()));
+        }
+    }
 }

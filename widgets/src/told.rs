@@ -1,7 +1,7 @@
 //! What several figures say of the filters, in words.
 
 use crate::{
-    decimal::fixed,
+    decimal::{self, fixed},
     model::{Change, FigureError},
     words::common::{self, NEffOf},
 };
@@ -12,9 +12,20 @@ pub const WEIGHED_ANEW: Change = Change::Told(
     "Universes pay what known ground says of all poses that they might have drawn, and not of the one that they drew.",
 );
 
-/// A setting that the filters refuse.
+/// A setting that the filters refuse. Parameters keep within what they take: this is for who has let one of them take more.
 pub fn refused(error: SettingError) -> FigureError {
-    FigureError { parameter: error.field().into(), message: error.to_string() }
+    let field = error.field();
+    match error {
+        SettingError::OutOfRange { value, range, .. } => {
+            let [value, least, most] = [value, range.least, range.most].map(decimal::write);
+            FigureError::new(field, value, format_args!("{least} … {most} {}", range.unit))
+        }
+        SettingError::UnknownWord { given, choices, .. } => FigureError::not_among(field, &given, choices),
+        SettingError::Unfit { allowed: needed, .. } | SettingError::Missing { needed, .. } => {
+            FigureError { parameter: field.into(), message: format!("{field}: {needed}") }
+        }
+        _ => FigureError { parameter: field.into(), message: field.into() },
+    }
 }
 
 /// A pose, or a difference of poses \[m, m, rad\], as text.

@@ -233,11 +233,13 @@ impl Smoothing {
     }
 
     fn sweep_on(&mut self) {
-        const BEGUN: &str = "paths come from the smoother's own filter";
         let smoother = &self.smoother;
         let path = self.draws.last().map_or(&self.first, |draw| &draw.path);
         let number = self.draws.len() as u32;
-        let sweep = self.sweep.get_or_insert_with(|| smoother.begin(number, path).expect(BEGUN));
+        let sweep = self.sweep.get_or_insert_with(|| match smoother.begin(number, path) {
+            Ok(sweep) => sweep,
+            Err(_) => unreachable!("paths come from the smoother's own filter"),
+        });
         let until = sweep.updates() + SLICE;
         while sweep.updates() < until {
             if let Some(draw) = smoother.advance(sweep) {

@@ -4,10 +4,11 @@ use super::recipe::Recipe;
 use crate::{
     job::{self, Job, Rows, Setting},
     model::FigureError,
+    told::refused,
 };
 use core::ops::Range;
 use fastslam_lab::experiment::{
-    graph::{GraphRun, GraphSetup},
+    graph::{GraphRun, GraphRunError, GraphSetup},
     lap::LapSetup,
 };
 
@@ -21,7 +22,10 @@ fn run(setting: &Setting, seeds: Range<u64>) -> Result<Rows, FigureError> {
     let GraphSetup { lap, repair, .. } = recipe.setup();
     let row = |seed| {
         let run = GraphRun::of(&LapSetup { seed, ..lap.clone() }, repair);
-        let run = run.map_err(|error| FigureError { parameter: "seed".into(), message: error.to_string() })?;
+        let run = run.map_err(|error| match error {
+            GraphRunError::Setting(error) => refused(error),
+            GraphRunError::Graph(error) => FigureError { parameter: "seed".into(), message: error.to_string() },
+        })?;
         Ok(vec![seed as f64, run.rms_after])
     };
     seeds.map(row).collect()
