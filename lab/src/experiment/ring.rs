@@ -238,9 +238,9 @@ pub fn died(count: usize, resamplings: &[Vec<u32>]) -> f64 {
     for ancestors in resamplings {
         origins = ancestors.iter().map(|slot| origins[*slot as usize]).collect();
     }
-    origins.sort_unstable();
-    origins.dedup();
-    1.0 - origins.len() as f64 / count as f64
+    let mut survives = vec![false; count];
+    origins.iter().for_each(|slot| survives[*slot as usize] = true);
+    1.0 - survives.iter().filter(|survives| **survives).count() as f64 / count as f64
 }
 
 /// What the noise of prices is measured by.

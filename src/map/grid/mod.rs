@@ -39,6 +39,7 @@ pub use saved::SavedGrids;
 use super::{ConditionalMap, Footprint};
 use crate::error::SettingError;
 use crate::geometry::Pose2;
+use crate::order::distinct;
 use crate::sensor::Scan;
 use core::hash::Hasher;
 use directory::Directory;
@@ -221,9 +222,11 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         const POINTER: usize = 8;
         let dense: usize =
             grids.iter().map(|grid| grid.directory.tiles.len() * Tile::<CELLS_PER_NDT>::DENSE_BYTES).sum();
-        let directories = distinct(grids.iter().copied().flat_map(Self::directories).collect());
+        let directories: Vec<_> = grids.iter().copied().flat_map(Self::directories).collect();
+        let directories = distinct(&directories, |directory| Arc::as_ptr(directory).addr() as u64);
         let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
-        let tiles = distinct(directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect());
+        let tiles: Vec<_> = directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect();
+        let tiles = distinct(&tiles, |tile| Arc::as_ptr(tile).addr() as u64);
         let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
         Footprint { unique: unique as u64, dense: dense as u64 }
     }
@@ -258,13 +261,6 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         let index = directory.index(ti, tj)?;
         Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
     }
-}
-
-/// Each shared thing once, in no order.
-fn distinct<T>(mut shared: Vec<&Arc<T>>) -> Vec<&Arc<T>> {
-    shared.sort_unstable_by_key(|arc| Arc::as_ptr(arc).addr());
-    shared.dedup_by_key(|arc| Arc::as_ptr(arc).addr());
-    shared
 }
 
 impl<const CELLS_PER_NDT: usize> ConditionalMap for Grid<CELLS_PER_NDT> {

@@ -166,14 +166,13 @@ impl<Z: LandmarkSensor, S: Store> Landmarks<Z, S> {
     }
     /// Merges what was sighted with what coincides with it: see [the type](Self#landmarks-that-coincide).
     fn merge_coinciding(&mut self, gate: &Gate, associations: &[Association]) {
-        let mut sighted: Vec<u32> = associations
-            .iter()
-            .filter_map(|association| match association {
-                Association::Matched(index) | Association::New(index) => Some(*index),
-                Association::Ignored => None,
-            })
-            .collect();
-        sighted.sort_unstable(); // the order in which features are listed decides nothing
+        // By index: the order in which features are listed decides nothing.
+        let mut sighted: Vec<u32> = Vec::with_capacity(associations.len());
+        for association in associations {
+            if let Association::Matched(index) | Association::New(index) = *association {
+                sighted.insert(sighted.partition_point(|known| *known < index), index);
+            }
+        }
         for (k, &a) in sighted.iter().enumerate() {
             for &b in &sighted[..k] {
                 if let (Some(one), Some(other)) = (self.store.get(a), self.store.get(b))
