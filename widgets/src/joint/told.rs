@@ -56,7 +56,7 @@ impl Tells for JointModel {
             Readout::new(name, title, x, metres(x), "m", help).drawn()
         };
         let removed = if hidden { f64::NAN } else { 100.0 * self.filters().removed(self.landmarks()) };
-        let text = self.removed().map(|text| text.trim_end_matches(" %").to_string()).unwrap_or_default();
+        let text = self.removed().map(|text| text.trim_end_matches([' ', '%']).to_string()).unwrap_or_default();
         let (rho, [done, _]) = (if hidden { f64::NAN } else { self.filters().log().rho() }, self.repeats());
         vec![
             particles("ess_sampled", joint::ess_sampled(), ess[0], joint::ess_sampled_help()).drawn(),

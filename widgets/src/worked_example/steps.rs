@@ -23,13 +23,12 @@ pub struct Step {
 impl Step {
     /// What the formula is of, as a formula too.
     pub fn symbol(&self) -> &'static str {
-        let name = |formula: &'static str, sign| formula.split(sign).next().unwrap_or_default();
-        name(name(self.formula, " = "), " ← ")
+        before(before(self.formula, '='), '←')
     }
 
     /// Whether its result has this symbol. What is there after the sighting has that of before, and nothing is made of it.
     fn makes(&self, symbol: &str) -> bool {
-        self.formula.split(" = ").next() == Some(symbol)
+        before(self.formula, '=') == symbol
     }
 
     /// Symbols of what it is made of, by steps that are shown and by what is given: of a step that is not shown, what that is made of.
@@ -59,8 +58,7 @@ impl Step {
             letter => letter,
         };
         let what: Vec<&str> = self.entering(shown).into_iter().map(plain).collect();
-        let caption = (self.caption)();
-        let name = caption.split(" [").next().unwrap_or(caption);
+        let name = before((self.caption)(), '[');
         worked_example::Enters { name: &name, what: &what.join(", ") }.say()
     }
 
@@ -69,6 +67,11 @@ impl Step {
         let (_, unit) = (self.caption)().split_once('[')?;
         unit.split(']').next()
     }
+}
+
+/// What stands before a sign, or all where that is missing.
+fn before(text: &str, sign: char) -> &str {
+    text.split(sign).next().unwrap_or(text).trim_end()
 }
 
 /// How values are written where there is so much room.

@@ -225,9 +225,9 @@ impl FromStr for Steering {
         let (course, rest) = body.split_once('.').ok_or(EditError::Garbled)?;
         let course = whole(course).filter(|steps| usize::from(*steps) <= MOST_STEPS).ok_or(EditError::Garbled)?;
         let mut steering = Self { course, motions: Vec::new() };
-        let mut rest = rest;
-        while let Some(letter) = rest.chars().next() {
-            rest = &rest[letter.len_utf8()..];
+        let mut letters = rest.chars();
+        while let Some(letter) = letters.next() {
+            let mut rest = letters.as_str();
             if letter == '~' {
                 let numbers = [digits(&mut rest), part(&mut rest), part(&mut rest)];
                 let [Some(x), Some(y), Some(heading)] = numbers else { return Err(EditError::Garbled) };
@@ -245,6 +245,7 @@ impl FromStr for Steering {
                 steering.motions.extend(core::iter::repeat_n(motion, run.into()));
             }
             steering.counted()?;
+            letters = rest.chars();
         }
         if steering.is_empty() { Err(EditError::Garbled) } else { Ok(steering) }
     }
@@ -253,7 +254,7 @@ impl FromStr for Steering {
 /// A number of ASCII digits at the beginning of the text, which goes on behind it.
 fn digits(rest: &mut &str) -> Option<u16> {
     let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
-    let (number, after) = rest.split_at(end);
+    let (number, after) = rest.split_at_checked(end)?;
     *rest = after;
     whole(number)
 }
