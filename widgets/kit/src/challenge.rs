@@ -3,7 +3,7 @@
 //! A figure lists them beside its parameters ([`Declared::challenges`]). What a page shows of each is a [`Chip`].
 
 use crate::{
-    model::{Declared, Group},
+    model::{Change, Declared, Group, ParamSpec},
     query, recipe,
 };
 use serde::Serialize;
@@ -68,8 +68,9 @@ impl<M> Challenge<M> {
         Self { check: Some(Check { goal, free, judge }), ..self }
     }
 
-    fn is_free(&self, name: &str) -> bool {
-        self.check.as_ref().is_some_and(|check| check.free.split(' ').any(|free| free == name))
+    fn offer(&self) -> Offer {
+        let Self { name, title, query, .. } = *self;
+        Offer { name, title, query, check: self.check.as_ref().map(|check| [check.goal, check.free]) }
     }
 }
 
@@ -102,27 +103,54 @@ pub struct Chip {
 pub fn chips<M: Declared>(model: &M) -> Vec<Chip> {
     let challenges = M::challenges();
     let (specs, values) = (recipe::specs(model.recipe()), recipe::values(model.recipe()));
-    let asked: Vec<_> = challenges.iter().map(|challenge| query::pairs(challenge.query)).collect();
+    let offers: Vec<Offer> = challenges.iter().map(Challenge::offer).collect();
+    let judge = |k: usize| challenges[k].check.as_ref().map(|check| (check.judge)(model));
+    standing(&offers, M::CHANGES, &specs, &values, &judge)
+}
+
+/// A challenge without its model.
+struct Offer {
+    name: &'static str,
+    title: &'static str,
+    query: &'static str,
+    /// [`Check::goal`] and [`Check::free`].
+    check: Option<[&'static str; 2]>,
+}
+
+impl Offer {
+    fn is_free(&self, name: &str) -> bool {
+        self.check.is_some_and(|[_, free]| free.split(' ').any(|free| free == name))
+    }
+}
+
+/// How it stands with what is offered, by these values and by what is found of the one of a rank: compiled once, and not for each figure.
+fn standing(
+    offers: &[Offer],
+    changes: &[Change],
+    specs: &[ParamSpec],
+    values: &[(&'static str, String)],
+    judge: &dyn Fn(usize) -> Option<Verdict>,
+) -> Vec<Chip> {
+    let asked: Vec<_> = offers.iter().map(|offer| query::pairs(offer.query)).collect();
     let names = |name: &str| asked.iter().flatten().any(|(asked, _)| asked == name);
     // Of what is only shown, that counts which a challenge is about.
     let counts = |name: &str, group| !ANY.contains(&name) && (group == Group::Setup || names(name));
     let differs = |k: usize, forgives: bool| {
-        specs.iter().zip(&values).any(|(spec, (name, value))| {
+        specs.iter().zip(values).any(|(spec, (name, value))| {
             let wanted = asked[k].iter().find(|(asked, _)| asked == name).map_or(&spec.default, |(_, wanted)| wanted);
-            counts(name, spec.group) && value != wanted && !(forgives && challenges[k].is_free(name))
+            counts(name, spec.group) && value != wanted && !(forgives && offers[k].is_free(name))
         })
     };
-    let chip = |(k, challenge): (usize, &Challenge<M>)| {
-        let check = challenge.check.as_ref();
+    let chip = |(k, offer): (usize, &Offer)| {
         let (now, still) = (!differs(k, false), !differs(k, true));
-        let verdict = check.filter(|_| still).map(|check| (check.judge)(model));
+        let verdict = if still { judge(k) } else { None };
         let Verdict { done, near, said } = verdict.unwrap_or(Verdict::new(false, &[0.0], String::new()));
         Chip {
-            name: challenge.name,
-            title: challenge.title,
-            query: query::versioned(challenge.query, M::CHANGES),
-            goal: check.map_or(String::new(), |check| check.goal.into()),
-            free: check.map_or(Vec::new(), |check| check.free.split(' ').collect()),
+            name: offer.name,
+            title: offer.title,
+            query: query::versioned(offer.query, changes),
+            goal: offer.check.map_or(String::new(), |[goal, _]| goal.into()),
+            free: offer.check.map_or(Vec::new(), |[_, free]| free.split(' ').collect()),
             now,
             still,
             done,
@@ -130,5 +158,5 @@ pub fn chips<M: Declared>(model: &M) -> Vec<Chip> {
             said,
         }
     };
-    challenges.iter().enumerate().map(chip).collect()
+    offers.iter().enumerate().map(chip).collect()
 }
