@@ -24,6 +24,7 @@ pub struct Readout {
 
 impl Readout {
     /// A number with its text, which is a dash where the number is not finite.
+    #[inline(never)] // figures have some 150 of them
     pub fn new(
         name: &'static str,
         title: &'static str,
@@ -38,8 +39,10 @@ impl Readout {
     }
 
     /// The same where the picture says it.
-    pub fn drawn(self) -> Self {
-        Self { drawn: true, ..self }
+    #[inline(never)]
+    pub fn drawn(mut self) -> Self {
+        self.drawn = true;
+        self
     }
 }
 
