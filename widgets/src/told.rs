@@ -28,6 +28,11 @@ pub fn refused(error: SettingError) -> FigureError {
     }
 }
 
+/// What is made of a setting that cannot be refused: the ranges of the parameters are within those of the filters.
+pub fn in_range<T>(made: Result<T, SettingError>) -> T {
+    made.unwrap_or_else(|error| unreachable!("{} is out of its range", error.field()))
+}
+
 /// A pose, or a difference of poses \[m, m, rad\], as text.
 pub fn pose_text([x, y, theta]: [f64; 3]) -> String {
     format!("({}, {}, {})", fixed(x, 2), fixed(y, 2), fixed(theta, 3))

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::challenge::Challenge;
 use crate::model::{Change, Declared, FigureError, Model};
-use crate::told::refused;
+use crate::told::{in_range, refused};
 use crate::words::conditioning;
 use fastslam_lab::{
     baseline::information_matrix::MapCovariance,
@@ -24,7 +24,7 @@ pub struct ConditioningModel {
 impl Default for ConditioningModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        let drive = Conditioning::new(&recipe.setup).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let drive = in_range(Conditioning::new(&recipe.setup));
         let covariances = drive.after(recipe.step);
         Self { recipe, drive, covariances }
     }

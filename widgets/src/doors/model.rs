@@ -8,7 +8,7 @@ use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
     model::{Declared, FigureError, Model},
-    told::refused,
+    told::{in_range, refused},
     words::doors,
 };
 use fastslam_lab::experiment::doors::{Doors, DoorsReport, DoorsSetup};
@@ -26,7 +26,7 @@ pub struct DoorsModel {
 impl Default for DoorsModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        let run = Doors::new(&recipe.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let run = in_range(Doors::new(&recipe.setup()));
         Self { reports: vec![run.start()], recipe, run, pinned: Curves::new() }
     }
 }

@@ -10,7 +10,7 @@ use crate::{
     kept::Kept,
     model::{Declared, FigureError, Model},
     prediction::{Outcome, State},
-    told::refused,
+    told::{in_range, refused},
     words::em,
 };
 use fastslam::error::SettingError;
@@ -76,7 +76,7 @@ pub struct EmModel {
 impl Default for EmModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        Self::new(recipe).unwrap_or_else(|error| unreachable!("the default is in range: {error}"))
+        in_range(Self::new(recipe))
     }
 }
 
@@ -325,7 +325,7 @@ impl Model for EmModel {
             self.cloud.advance(&self.log);
         } else {
             let done = self.others.advance(&self.log);
-            done.unwrap_or_else(|error| unreachable!("there is a log: {error}"));
+            in_range(done);
         }
     }
 

@@ -4,7 +4,7 @@ use super::{
     challenges,
     recipe::{END, GUESSES, Recipe},
 };
-use crate::told::{WEIGHED_ANEW, refused};
+use crate::told::{WEIGHED_ANEW, in_range, refused};
 use crate::{
     challenge::Challenge,
     ghost::{self, Curves},
@@ -45,7 +45,7 @@ impl Default for GraphModel {
 }
 
 fn begin(setup: &GraphSetup) -> GraphLap {
-    GraphLap::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+    in_range(GraphLap::new(setup))
 }
 
 impl Computes for GraphModel {

@@ -6,7 +6,7 @@ use crate::ghost::Curves;
 use crate::kept::{Computes, Runs};
 use crate::model::{Declared, FigureError, Model};
 use crate::prediction::{Outcome, State};
-use crate::told::refused;
+use crate::told::{in_range, refused};
 use crate::words::joint;
 use fastslam_lab::experiment::joint::{COMPUTED, Joint, JointSetup, MOST, Population, SAMPLED};
 
@@ -26,7 +26,7 @@ impl Default for JointModel {
 }
 
 fn begin(setup: &JointSetup) -> Joint {
-    Joint::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+    in_range(Joint::new(setup))
 }
 
 impl Computes for JointModel {
@@ -155,7 +155,7 @@ impl Model for JointModel {
 
     fn work(&mut self) {
         let done = self.runs.asked_mut().advance();
-        done.unwrap_or_else(|error| unreachable!("it has begun: {error}"));
+        in_range(done);
         self.runs.show_if(Self::is_begun);
     }
 

@@ -5,6 +5,7 @@ use crate::challenge::Challenge;
 use crate::ghost::Curves;
 use crate::model::{Change, Declared, FigureError, Model, Tells};
 use crate::prediction::{Outcome, State};
+use crate::told::in_range;
 use crate::words::proposal;
 use fastslam_lab::experiment::proposal::{Proposals, ProposalsSetup};
 
@@ -38,7 +39,7 @@ impl Default for ProposalModel {
 }
 
 fn propose(setup: &ProposalsSetup) -> Proposals {
-    Proposals::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+    in_range(Proposals::new(setup))
 }
 
 impl ProposalModel {

@@ -6,7 +6,7 @@ use crate::ghost::{self, Curves};
 use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model};
 use crate::prediction::{Outcome, State};
-use crate::told::{WEIGHED_ANEW, refused};
+use crate::told::{WEIGHED_ANEW, in_range, refused};
 use crate::words::resampling;
 use core::mem::replace;
 use fastslam::geometry::Pose2;
@@ -47,7 +47,7 @@ pub struct Moment {
 impl Default for ResamplingModel {
     fn default() -> Self {
         let recipe = Recipe::default();
-        let run = Policies::new(&recipe.setup()).unwrap_or_else(|error| unreachable!("the default setup: {error}"));
+        let run = in_range(Policies::new(&recipe.setup()));
         let moments = vec![moments(&run, None, None)];
         let (known, kept) = Default::default();
         Self { recipe, run, moments, known, kept, pinned: Curves::new() }

@@ -7,6 +7,7 @@ use crate::{
     kept::{Computes, Runs},
     model::{Change, Declared, FigureError, Model},
     prediction::{Outcome, State},
+    told::in_range,
     words::smoothing as words,
 };
 use core::convert::Infallible;
@@ -41,7 +42,7 @@ impl Default for SmoothingModel {
 }
 
 fn begin(setup: &SmoothingSetup) -> Smoothing {
-    Smoothing::new(setup).unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}"))
+    in_range(Smoothing::new(setup))
 }
 
 impl Computes for SmoothingModel {

@@ -5,7 +5,7 @@ use super::{
     recipe::{LAST, NOISES, Recipe},
     shipped::{self, LAPS},
 };
-use crate::told::WEIGHED_ANEW;
+use crate::told::{WEIGHED_ANEW, in_range};
 use crate::{
     challenge::Challenge,
     model::{Change, Declared, FigureError, Model},
@@ -66,7 +66,7 @@ fn depletions(setup: &ProposalsSetup) -> Vec<(f64, Depletion)> {
     let at = |(range_std, measure): (f64, bool)| {
         let setup = ProposalsSetup { range_std, ..setup.clone() };
         let found = depletion(&setup, measure);
-        (range_std, found.unwrap_or_else(|error| unreachable!("the parameters' ranges are within the core's: {error}")))
+        (range_std, in_range(found))
     };
     line.chain(MEASURED.map(|noise| (noise, true))).map(at).collect()
 }

@@ -168,7 +168,7 @@ fn texts_fit_the_figure_have_their_letters_and_cover_no_other() {
                 let Mark::Text(text) = mark else { continue };
                 assert!(bounds.encloses(&text.area), "{query} at {width}: {text:?}");
                 assert!(!text.text.ends_with('…'), "{query} at {width}: {text:?} was shortened");
-                assert!(text.text.chars().all(|c| font::has(c, text.weight)), "{text:?}");
+                assert!(text.text.chars().all(font::has), "{text:?}");
                 let [x, y] = text.origin();
                 // An accent's ink is the upper part of its box.
                 let low = if ["^", "~"].contains(&text.text.as_str()) { 0.25 * text.size } else { 0.0 };
