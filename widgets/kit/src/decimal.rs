@@ -43,6 +43,17 @@ pub fn write(x: f64) -> String {
     fixed(x, (0..DIGITS).find(reads_back).unwrap_or(DIGITS))
 }
 
+/// [`f64::clamp`] between ends that are known at run time only: where they could be in disorder, its panic has std's writing of floats with it.
+pub fn between(x: f64, low: f64, high: f64) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}
+
 /// The number that [`write()`] writes for it.
 pub fn as_written(x: f64) -> f64 {
     parse(&write(x)).unwrap_or(x)

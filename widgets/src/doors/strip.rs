@@ -2,7 +2,7 @@
 
 use super::{layout::Layout, model::DoorsModel, told};
 use crate::{
-    decimal::write,
+    decimal::{between, write},
     model::Model,
     order::ascending,
     robot::robot,
@@ -161,12 +161,12 @@ impl Strip<'_> {
         let mean = self.x(now.ekf_place);
         let corner = |k: u32| {
             let deviations = DEVIATIONS * (2.0 * f64::from(k) / f64::from(CORNERS) - 1.0);
-            let x = (mean + deviations * std).clamp(edges[0], edges[1]);
+            let x = between(mean + deviations * std, edges[0], edges[1]);
             [x, y + 0.86 * h * ops::exp(-0.5 * deviations * deviations)]
         };
-        let mut corners = vec![[(mean - DEVIATIONS * std).clamp(edges[0], edges[1]), y]];
+        let mut corners = vec![[between(mean - DEVIATIONS * std, edges[0], edges[1]), y]];
         corners.extend((0..=CORNERS).map(corner));
-        corners.push([(mean + DEVIATIONS * std).clamp(edges[0], edges[1]), y]);
+        corners.push([between(mean + DEVIATIONS * std, edges[0], edges[1]), y]);
         scene.polygon(corners, EKF);
         if let Some(place) = self.tied_to() {
             scene.line(&[[mean, y], [self.x(place), self.layout.strip.y + 18.0]], 2.0, EKF);

@@ -6,7 +6,7 @@ use super::{
     recipe::{FILLS, MARKS},
 };
 use crate::{
-    decimal::write,
+    decimal::{between, write},
     prediction::{Level, State, level},
     scene::{Cells, Handle, Point, Rect, Role, Scene, Shading, plain, strong},
     words::em as words,
@@ -63,7 +63,7 @@ pub fn carried(scene: &mut Scene, model: &EmModel, area: &Rect) {
 /// Names of places left of an area.
 pub fn scale(scene: &mut Scene, area: &Rect) {
     for metres in [0, 2, 4, 6, 8, 10] {
-        let middle = y(area, f64::from(metres)).clamp(area.y + 7.0, area.bottom() - 7.0);
+        let middle = between(y(area, f64::from(metres)), area.y + 7.0, area.bottom() - 7.0);
         if metres % 4 != 0 && area.h < 100.0 {
             continue;
         }

@@ -8,6 +8,7 @@ use super::{
     universes,
 };
 use crate::{
+    decimal::between,
     model::Declared,
     panels::Panels,
     prediction::{GUESS, State},
@@ -64,7 +65,7 @@ impl View for GraphView {
         }
         if let Some(end) = ENDS.iter().position(|name| *name == handle).filter(|_| by.is_finite()) {
             let (ends, last) = (model.recipe().ends(), model.world().truth.len() as f64 - 1.0);
-            let to = |by: f64| (f64::from(ends[end]) + by).clamp(0.0, last) as u32;
+            let to = |by: f64| between(f64::from(ends[end]) + by, 0.0, last) as u32;
             // Over the other end, and not onto it.
             let pose = if to(by) == ends[1 - end] { to(by + by.signum()) } else { to(by) };
             model.change(|recipe| recipe.put_end(end, pose));

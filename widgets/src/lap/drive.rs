@@ -4,7 +4,7 @@
 
 use super::model::LapModel;
 use crate::{
-    decimal::fixed,
+    decimal::{between, fixed},
     model::{Declared, FigureError, Model},
     robot::Robots,
     scene::{Plane, Role, Room, Scene},
@@ -87,7 +87,7 @@ impl LapModel {
             ("drive", _) | ("move", Tool::Wheel) => self.drive(&[Motion::Turn(Turn::by(-right as i32))]),
             ("move", _) => {
                 let to = [cursor[0] + GRID * right, cursor[1] + GRID * up];
-                let to = core::array::from_fn(|k| on_grid(to[k].clamp(0.0, size[k])));
+                let to = core::array::from_fn(|k| on_grid(between(to[k], 0.0, size[k])));
                 (hand.cursor, hand.keyed) = (to, true);
                 Ok(())
             }
@@ -132,7 +132,7 @@ impl LapModel {
             },
             Tool::Lift => {
                 // Set down as near to the outer walls as it could stand.
-                let [x, y] = core::array::from_fn(|k| at[k].clamp(0.2, course.size[k] - 0.2));
+                let [x, y] = core::array::from_fn(|k| between(at[k], 0.2, course.size[k] - 0.2));
                 self.drive(&[Motion::Lift(Place::near(&Pose2 { x, y, ..self.robot() }))])
             }
         }
@@ -270,7 +270,7 @@ fn on_grid(x: f64) -> f64 {
 }
 
 fn inside(plan: &FloorPlan, point: [f64; 2]) -> [f64; 2] {
-    core::array::from_fn(|k| on_grid(point[k].clamp(0.0, plan.size[k])))
+    core::array::from_fn(|k| on_grid(between(point[k], 0.0, plan.size[k])))
 }
 
 fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
