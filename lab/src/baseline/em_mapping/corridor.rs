@@ -95,13 +95,8 @@ pub struct Kernel {
     cells: usize,
     first: i64,
     masses: Vec<f64>,
-}
-
-/// Cells that a step leads to with their probabilities: the cells at the two walls, and those between.
-struct Fan<'a> {
-    walls: [Option<(usize, f64)>; 2],
-    between: Range<usize>,
-    masses: &'a [f64],
+    /// Of the cells from which a step may meet a wall, in order: the first cell that it may lead to, and the probabilities from that one on.
+    at_walls: Vec<(usize, Vec<f64>)>,
 }
 
 impl Kernel {
@@ -124,21 +119,33 @@ impl Kernel {
         let masses: Vec<f64> = (first..=last).map(|k| below(k as f64 + 0.5) - below(k as f64 - 0.5)).collect();
         let total: f64 = masses.iter().sum();
         let masses = if total > 0.0 { masses.iter().map(|mass| mass / total).collect() } else { vec![1.0] };
-        Ok(Self { cells: corridor.cells as usize, first, masses })
+        let mut kernel = Self { cells: corridor.cells as usize, first, masses, at_walls: Vec::new() };
+        let free = kernel.free();
+        let from = |cell: usize| (kernel.leads(cell).start, kernel.from(cell).map(|(_, mass)| mass).collect());
+        kernel.at_walls = (0..free.start).chain(free.end..kernel.cells).map(from).collect();
+        Ok(kernel)
     }
 
-    /// Cells that a step from a cell may lead to, with their probabilities.
+    /// Cells that a step from a cell may lead to.
+    fn leads(&self, cell: usize) -> Range<usize> {
+        let last = self.cells as i64 - 1;
+        let [first, end] = [0, self.masses.len() as i64 - 1].map(|k| (cell as i64 + self.first + k).clamp(0, last));
+        first as usize..end as usize + 1
+    }
+
+    /// The same with their probabilities.
     pub fn from(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let last = self.cells as i64 - 1;
         // The cell that lies so many masses from the first, were there no walls.
         let first = cell as i64 + self.first;
         let end = first + self.masses.len() as i64 - 1;
         let sum = |masses: Range<i64>| -> f64 { self.masses[masses.start as usize..masses.end as usize].iter().sum() };
-        (first.clamp(0, last)..=end.clamp(0, last)).map(move |to| {
+        self.leads(cell).map(move |cell| {
+            let to = cell as i64;
             // At a wall, with all that would lead beyond it.
             let from = if to == 0 { 0 } else { (to - first).max(0) };
             let until = if to == last { end } else { to.min(end) } - first;
-            (to as usize, sum(from..until + 1))
+            (cell, sum(from..until + 1))
         })
     }
 
@@ -160,25 +167,19 @@ impl Kernel {
     /// Adds Σᵢ p(x_t = j | x_{t−1} = i) before(i) to every j, summed in the order of i.
     pub fn push(&self, before: &[f64], after: &mut [f64]) {
         let free = self.free();
-        self.push_to_walls(before, 0..free.start, after);
+        let (near, far) = self.at_walls.split_at(free.start);
+        let push = |walls: &[(usize, Vec<f64>)], before: &[f64], after: &mut [f64]| {
+            for ((to, masses), p) in walls.iter().zip(before) {
+                after[*to..].iter_mut().zip(masses).for_each(|(after, mass)| *after += p * mass);
+            }
+        };
+        push(near, before, after);
         for (to, mass) in self.shifted(&free).rev() {
             for (after, p) in after[to].iter_mut().zip(&before[free.clone()]) {
                 *after += p * mass;
             }
         }
-        self.push_to_walls(before, free.end..self.cells, after);
-    }
-
-    fn push_to_walls(&self, before: &[f64], cells: Range<usize>, after: &mut [f64]) {
-        for cell in cells.filter(|cell| before[*cell] > 0.0) {
-            let Fan { walls, between, masses } = self.fan(cell);
-            for (to, mass) in walls.into_iter().flatten() {
-                after[to] += before[cell] * mass;
-            }
-            for (after, mass) in after[between].iter_mut().zip(masses) {
-                *after += before[cell] * mass;
-            }
-        }
+        push(far, &before[free.end..], after);
     }
 
     /// Adds Σⱼ p(x_t = j | x_{t−1} = i) after(j) to every i, summed in the order of j.
@@ -189,27 +190,9 @@ impl Kernel {
                 *before += mass * p;
             }
         }
-        for cell in (0..free.start).chain(free.end..self.cells) {
-            let Fan { walls: [near, far], between, masses } = self.fan(cell);
-            let near = near.map_or(0.0, |(to, mass)| mass * after[to]);
-            let sum = masses.iter().zip(&after[between]).fold(near, |sum, (mass, p)| sum + mass * p);
-            before[cell] += far.map_or(sum, |(to, mass)| sum + mass * after[to]);
+        for (cell, (to, masses)) in (0..free.start).chain(free.end..self.cells).zip(&self.at_walls) {
+            before[cell] += masses.iter().zip(&after[*to..]).fold(0.0, |sum, (mass, p)| sum + mass * p);
         }
-    }
-
-    /// Where the steps from a cell lead to.
-    fn fan(&self, cell: usize) -> Fan<'_> {
-        let last = self.cells as i64 - 1;
-        let first = cell as i64 + self.first;
-        let end = first + self.masses.len() as i64 - 1;
-        let sum = |from: i64, until: i64| -> f64 { self.masses[from as usize..until as usize].iter().sum() };
-        // A single cell counts as the near wall.
-        let near = (first <= 0 || last == 0).then(|| (0, sum(0, if last == 0 { end } else { end.min(0) } - first + 1)));
-        let far = (end >= last && last > 0).then(|| (last as usize, sum((last - first).max(0), end - first + 1)));
-        let from = first.clamp(1, last.max(1));
-        let between = from as usize..(end + 1).clamp(from, last.max(from)) as usize;
-        let masses = if between.is_empty() { &[] } else { &self.masses[(from - first) as usize..][..between.len()] };
-        Fan { walls: [near, far], between, masses }
     }
 
     /// Cells from which no step meets a wall: from all of them it leads as far, with the same masses.

@@ -13,13 +13,13 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct DoorCounts {
     corridor: Corridor,
-    counts: Arc<Vec<[u32; 2]>>,
+    counts: Arc<[[u32; 2]]>,
 }
 
 impl DoorCounts {
     /// Nothing is counted yet.
     pub fn new(corridor: Corridor) -> Self {
-        Self { corridor, counts: Arc::new(vec![[0; 2]; corridor.cells as usize]) }
+        Self { corridor, counts: vec![[0; 2]; corridor.cells as usize].into() }
     }
 
     /// What is known of a cell; of one that does not exist, what is known of the last.
