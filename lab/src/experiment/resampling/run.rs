@@ -83,10 +83,10 @@ impl Run {
 
     pub(super) fn step(&mut self) -> Option<Stepped> {
         match self {
-            Self::Lap(run) => run.step().map(|report| Stepped {
+            Self::Lap(run) => run.advance().map(|report| Stepped {
                 log_evidence: report.log_evidence,
                 ess: report.ess,
-                ancestors: report.ancestors.clone(),
+                ancestors: report.ancestors,
                 associations: None,
             }),
             Self::Wings(run) => run.step().map(|report| Stepped {
