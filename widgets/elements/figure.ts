@@ -242,7 +242,9 @@ export class Figure implements Listener {
 
   /** There may be something to show. */
   wake(): void {
-    if (this.host) this.frames.wake()
+    if (!this.host) return
+    this.frames.wake()
+    void this.#catchUp()
   }
 
   #frame(now: number): void {
@@ -251,19 +253,27 @@ export class Figure implements Listener {
     const plays = this.life.playback.playing && this.frames.inView
     if (plays && !this.host.busy) this.#advance(now)
     this.host?.work(WORK_SLICE)
-    this.#show(this.host?.frame(now))
-    this.view.showBusy(this.host?.busy ?? false)
+    this.#paint(now)
     if (plays || this.host?.busy) this.wake()
-    void this.#catchUp()
   }
 
-  /** Works also between frames, where that is on the page: on the way to what was asked for there is nothing to paint, and the reader waits. */
+  #paint(now: number): void {
+    this.#show(this.host?.frame(now))
+    this.view.showBusy(this.host?.busy ?? false)
+  }
+
+  /**
+   * Works also between frames, where that is on the page, and shows what was asked for as soon as it is there: until then there is nothing to
+   * paint, and the reader waits.
+   */
   async #catchUp(): Promise<void> {
     if (this.#catchingUp) return
     this.#catchingUp = true
-    while (this.host?.busy && !this.host.remote && this.frames.waiting) {
+    for (;;) {
       await yieldToMain()
-      this.host?.work(WORK_SLICE)
+      if (!this.host?.busy || this.host.remote || !this.frames.waiting) break
+      this.host.work(WORK_SLICE)
+      if (this.#pictured && !this.host.busy) this.#paint(performance.now())
     }
     this.#catchingUp = false
   }

@@ -5,7 +5,8 @@ import { trapMessage, type ProgramState, type Shell } from './shell'
 import { Session } from './session'
 import { ToldError } from './words'
 
-const CATCH_UP_PAINT = 100 // [ms] between the pictures on the way to the first step that is asked for
+const CATCH_UP_PAINT = 100 // [ms] between two pictures, where what was asked for is still being computed …
+const REFINE_PAINT = 250 // … and where nothing was asked for since the first of the two
 
 export class LocalHost implements FigureHost, InstanceUser {
   readonly remote = false
@@ -14,6 +15,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   #queue: Command[] = [] // what was asked meanwhile
   #dirty = true
   #paintedAt = -Infinity // [ms]
+  #asked = true // something, since then
   readonly #memory = new HostMemory()
   #trapped = false // it was this figure that killed the instance
   #known: ProgramState | undefined // as it was asked to be, for the time without a session
@@ -68,10 +70,10 @@ export class LocalHost implements FigureHost, InstanceUser {
 
   frame(now?: number): Frame | undefined {
     return this.#ask(session => {
-      const hurry = session.pending && now !== undefined && now < this.#paintedAt + CATCH_UP_PAINT
+      const hurry = session.pending && now !== undefined && now < this.#paintedAt + (this.#asked ? CATCH_UP_PAINT : REFINE_PAINT)
       if (now !== undefined && (!this.#dirty || hurry || session.state.holds)) return undefined
       const frame = session.frame(now === undefined)
-      this.#dirty = now === undefined
+      this.#dirty = this.#asked = now === undefined
       this.#paintedAt = performance.now()
       this.#memory.saw(frame)
       return frame
@@ -105,7 +107,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   #carryOut(command: Command): void {
-    this.#dirty = true
+    this.#dirty = this.#asked = true
     this.#ask(session => {
       void session.do(command)
       // A state that is asked for is remembered, in case that another figure kills the instance before it is shown.
