@@ -114,3 +114,17 @@ for (const heavy of [false, true]) {
     }
   })
 }
+
+/** A drag is answered as soon as it is computed: neither its first slice nor its picture waits for the next frame. */
+test('what is asked of a figure on the page is computed and shown though no frame comes', async ({ page }) => {
+  const lap = await openLap(page, false)
+  await lap.settled()
+  const shown = await lap.element.evaluate(element => {
+    const figure = element as FigureElement
+    const told = new Promise<void>(done => figure.addEventListener('fastslam-step', () => done(), { once: true }))
+    window.requestAnimationFrame = () => 1
+    figure.seek(30)
+    return told.then(() => figure.shadowRoot!.querySelector('.timeline .position')!.textContent)
+  })
+  expect(shown).toMatch(/^30 \//)
+})
