@@ -1,6 +1,7 @@
 //! A lens over a map, for what is too small there to be told apart.
 
 use super::{Letters, Plane, Rect, Role, Scene, clip_polyline, closed, strong};
+use crate::decimal;
 
 /// How many times larger it shows what is below it, and how far it is from the map's edges \[css px\].
 const MAGNIFIED: f64 = 8.0;
@@ -22,7 +23,7 @@ pub fn lens(scene: &mut Scene, map: &Plane, place: [f64; 2], draw: &mut dyn FnMu
     scene.fill(area, Role::Paper);
     draw(scene, Plane::centred(area, place, MAGNIFIED * map.scale));
     scene.frame(area, 1.5, Role::Ink);
-    let label = format!("× {MAGNIFIED}");
+    let label = format!("× {}", decimal::write(MAGNIFIED));
     let plate = Rect::new(area.x + 2.0, area.bottom() - 16.0, TIMES.width(&label) + 4.0, 14.0);
     scene.fill(plate, Role::Paper);
     scene.text(plate, TIMES, &label);
