@@ -46,28 +46,26 @@ impl AsRef<[LaserScan]> for LaserLog {
 }
 
 impl LaserLog {
-    /// Leaves out scans whose ranges are, to the bit, those of the one before, though the robot moved in between: a driver that sends its last scan
-    /// again. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator draws without noise, all
-    /// that is left out says nothing new.
+    /// Leaves out what scans see whose ranges are, to the bit, those of the one before, though the robot moved in between: a driver that sends its last scan
+    /// again. Their odometry stays, and leads on. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator
+    /// draws without noise, all that is left out says nothing new.
     pub fn leave_repeated_out(&mut self) -> Option<(usize, f64)> {
         /// Fewer ranges may be equal by chance.
         const ENOUGH: usize = 10;
         let tells = |scan: &LaserScan| scan.ranges.iter().filter(|range| range.is_finite() && **range > 0.0).count();
-        let (mut count, mut first, mut kept) = (0, None, Vec::<LaserScan>::new());
-        for scan in core::mem::take(&mut self.scans) {
-            let repeats = kept.last().is_some_and(|last| {
-                let moved = last.odometry.between(&scan.odometry);
-                let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > LaserMapperSettings::STILL;
-                moves && last.ranges == scan.ranges && tells(&scan) >= ENOUGH
-            });
-            if repeats {
+        let (mut count, mut first, mut last) = (0, None, 0);
+        for k in 1..self.scans.len() {
+            let (before, scan) = (&self.scans[last], &self.scans[k]);
+            let moved = before.odometry.between(&scan.odometry);
+            let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > LaserMapperSettings::STILL;
+            if moves && before.ranges == scan.ranges && tells(scan) >= ENOUGH {
                 count += 1;
                 first = first.or(Some(scan.time));
+                self.scans[k].ranges.fill(f32::NAN);
             } else {
-                kept.push(scan);
+                last = k;
             }
         }
-        self.scans = kept;
         first.map(|time| (count, time))
     }
 

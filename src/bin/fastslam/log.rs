@@ -293,11 +293,11 @@ fn save_session(arguments: &Arguments, mapper: &LaserMapper) -> Result<()> {
     arguments.session.as_deref().map_or(Ok(()), |path| session::write(mapper, path))
 }
 
-/// Leaves out the scans that repeat the one before while the robot drives, and says so: how many there were.
+/// Leaves out what scans see that repeat the one before while the robot drives, and says so: how many there were.
 fn leave_repeated_out(log: &mut LaserLog, name: &str) -> usize {
     let Some((count, time)) = log.leave_repeated_out() else { return 0 };
     eprintln!(
-        "fastslam: {name}: scans that repeat the one before, to the last digit, while odometry moves: {count}, the first at {time:.3} s; they are left out"
+        "fastslam: {name}: scans that repeat the one before, to the last digit, while odometry moves: {count}, the first at {time:.3} s; of these only the odometry is used"
     );
     count
 }
