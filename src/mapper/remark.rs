@@ -23,7 +23,7 @@ pub enum Remark {
     },
     /// So many scans, of which the robot moved in none.
     NeverMoved(usize),
-    /// No beam met anything within the longest range that counts.
+    /// No beam met anything within the longest range that counts, or only those of one scan in twenty.
     NothingMet,
     /// The path comes back to places that it does not meet.
     OpenLoops {

@@ -99,9 +99,9 @@ impl Closings {
         [self.keeping.kept, self.views.len(), bytes + size_of_val(&self.views[..])]
     }
 
-    /// Whether no scan has met anything.
+    /// Whether no more than one scan in twenty met anything.
     pub(in crate::mapper) fn met_nothing(&self) -> bool {
-        self.views.iter().all(|view| view.reach == 0.0)
+        20 * self.views.iter().filter(|view| view.reach > 0.0).count() <= self.views.len()
     }
 
     /// Steps of the last metres, the newest first.

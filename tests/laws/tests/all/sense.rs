@@ -158,6 +158,14 @@ fn a_map_of_one_place_or_of_nothing_is_not_passed_off_as_one_of_the_building() {
         LaserMapper::new(LaserMapperSettings { max_range: 20.0, ..LaserMapperSettings::default() }).unwrap();
     empty.scans.iter().for_each(|scan| drop(mapper.push(scan)));
     assert_eq!(mapper.remarks(), [Remark::NothingMet]);
+    // Centimetres that were taken for metres: of one scan what is very near is met all the same.
+    let mut nearly = Example::of(&Recipe::building(), 30).log;
+    nearly.scans.iter_mut().for_each(|scan| scan.ranges.fill(29.0));
+    nearly.scans[0].ranges.fill(9.0);
+    let mut mapper =
+        LaserMapper::new(LaserMapperSettings { max_range: 20.0, ..LaserMapperSettings::default() }).unwrap();
+    nearly.scans.iter().for_each(|scan| drop(mapper.push(scan)));
+    assert_eq!(mapper.remarks(), [Remark::NothingMet]);
 }
 
 /// What is wrong throughout, and as what it is found out: all scans as they were, to what the k-th is then.
