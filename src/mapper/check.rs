@@ -7,9 +7,7 @@
 //! regression: translations as complex numbers, whose ratio is a scale and an angle, and turns.
 
 use super::LaserMapperSettings;
-use super::agreement::Agreement;
 use super::last_places::{LastPlaces, MAX_RANGE, fan};
-use super::models::score;
 use super::scan_to_scan::match_scans;
 use crate::error::fixed;
 use crate::geometry::{Pose2, driven};
@@ -74,9 +72,6 @@ const KEPT: f64 = 0.95;
 
 /// A scan of fewer end points tells nothing of a motion.
 const ENOUGH: usize = 20;
-
-/// Of a scan that counts, the least share of the end points that are on walls, and the largest share that the map disputes.
-const FITS: [f64; 2] = [0.5, 0.15];
 
 /// From this share of explained motion on, scans and odometry tell of one motion, by factors that can be believed.
 const EXPLAINED: f64 = 0.9;
@@ -214,8 +209,8 @@ impl Found {
         for (k, scan) in scans.iter().enumerate() {
             let ends = scan.end_points(longest, MAX_RANGE);
             let told = if k > 0 { scans[k - 1].odometry.between(&scan.odometry) } else { Pose2::default() };
-            let there = places.matched(&[last.compose(&told)], &ends, |_| true);
-            let ahead = places.matched(&fan(last.compose(&motion)), &ends, |_| true);
+            let there = places.matched(&[last.compose(&told)], &ends, None);
+            let ahead = places.searched(&fan(last.compose(&motion)), &last, &ends);
             let pose = match (there, ahead) {
                 (Some(there), Some(ahead)) => {
                     let better = ahead.value > there.value + BETTER * ends.hits.len() as f64;
@@ -225,10 +220,8 @@ impl Found {
             };
             let found = last.between(&pose);
             if k > 0 && ends.hits.len() >= ENOUGH {
-                let agreement = Agreement::of(&score().log_beams(places.map(), &pose, &ends));
-                let [fits, disputed] = FITS;
                 self.scans += 1;
-                if agreement.fits > fits && agreement.disputed() < disputed {
+                if places.is_home(&pose, &ends) {
                     self.steps.push([found, told]);
                 }
             }

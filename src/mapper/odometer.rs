@@ -12,10 +12,8 @@
 //! logs that are at hand (Intel, ACES, Freiburg's campus) is disbelieved.
 
 use super::agreement::Agreement;
-use super::last_places::{LastPlaces, MAX_RANGE, fan};
-use super::models::score;
+use super::last_places::{LastPlaces, MAX_RANGE, Near, fan};
 use super::moving::{Directions, MOVING};
-use super::wheels::Wheels;
 use crate::error::{Range, SettingError};
 use crate::geometry::{Pose2, driven};
 use crate::ops;
@@ -59,9 +57,6 @@ const IN_COMMON: f64 = 0.2;
 /// Fewer end points are no witness against odometry.
 const ENOUGH: usize = 20;
 
-/// What can be off of a heading besides wheels \[rad\].
-const HEADING_ERROR: f64 = 0.1;
-
 /// Where odometry leads, a scan is at home if the map disputes less of it than this share, and more than this share of its end points are on walls: it may
 /// have much that is new.
 const AT_HOME: [f64; 2] = [0.25, 0.25];
@@ -93,6 +88,21 @@ struct Proof {
     fits: f64,
     /// The largest share that the map disputes.
     disputed: f64,
+}
+
+/// Enough of whatever is doubted.
+const CLEAR: Proof = Proof { gain: 0.3, fits: 0.5, disputed: 0.125 };
+
+/// Enough against odd odometry that errors of the wheels do not explain.
+const ODD: Proof = Proof { gain: 0.0, ..CLEAR };
+
+/// Enough of a robot that is said to stand. People may walk about before it.
+const STANDING: Proof = Proof { gain: 0.05, fits: 0.8, disputed: 0.05 };
+
+impl Proof {
+    fn is_given(&self, gain: f64, found: &Agreement) -> bool {
+        gain >= self.gain && found.fits >= self.fits && found.disputed() <= self.disputed
+    }
 }
 
 /// See the module.
@@ -221,26 +231,17 @@ impl Odometer {
             return None;
         }
         // Errors of the wheels on all of the way are in the map of the places. Of a robot that stands the last place alone is asked.
-        let [x, theta] = if doubt == Doubt::Stands { [0.0; 2] } else { self.places.span(told) };
-        let wheels = Wheels::default().displacement(&Pose2 { x, y: 0.0, theta }).covariance;
-        let within = [wheels.m11, wheels.m33].map(|variance| MOVING.seen_through_stds * variance.sqrt());
-        let within = [within[0] + MOVING.range_error, within[1] + HEADING_ERROR];
-        let near = move |pose: &Pose2| {
-            let off = driven(&told.between(pose));
-            off[0] < within[0] && off[1] < within[1]
-        };
-        let agreement =
-            |places: &mut LastPlaces, pose: &Pose2| Agreement::of(&score().log_beams(places.map(), pose, &ends));
+        let near = Near::new(told, if doubt == Doubt::Stands { [0.0; 2] } else { self.places.span(told) });
         if doubt == Doubt::Differs {
-            let there = self.places.matched(&[*told], &ends, near)?;
-            let (there, [disputed, fits]) = (agreement(&mut self.places, &there.pose), AT_HOME);
+            let there = self.places.matched(&[*told], &ends, Some(&near))?;
+            let (there, [disputed, fits]) = (self.places.agreement(&there.pose, &ends), AT_HOME);
             if there.disputed() < disputed && there.fits > fits {
                 return None;
             }
         }
         let ahead = last.ahead(scan.time - last.time);
-        let best = self.places.matched(&[ahead, last.pose, *told].map(fan).concat(), &ends, |_| true)?;
-        let proof = match doubt {
+        let best = self.places.searched(&[ahead, last.pose, *told].map(fan).concat(), &last.pose, &ends)?;
+        let (near, less) = match doubt {
             Doubt::Impossible => return Some(best.pose),
             Doubt::Still => {
                 let ([way, turn], off) = (driven(&last.pose.between(&best.pose)), driven(&told.between(&best.pose)));
@@ -248,18 +249,19 @@ impl Odometer {
                 let agrees = off[0] < position + share * way && off[1] < heading + share * turn;
                 return (!agrees).then_some(best.pose);
             }
-            Doubt::Odd => Proof { gain: 0.0, fits: 0.5, disputed: 0.125 },
-            // People walk about before a robot that stands.
-            Doubt::Stands => Proof { gain: 0.05, fits: 0.8, disputed: 0.05 },
-            Doubt::Differs => Proof { gain: 0.3, fits: 0.5, disputed: 0.125 },
+            // An error of the last step alone can be put right by the filter.
+            Doubt::Odd if near.has(&best.pose) => (Near::new(told, driven(&last.pose.between(told))), None),
+            Doubt::Odd => (near, Some(ODD)),
+            Doubt::Stands => (near, Some(STANDING)),
+            Doubt::Differs => (near, None),
         };
-        if near(&best.pose) {
+        if near.has(&best.pose) {
             return None;
         }
-        let there = self.places.matched(&fan(*told), &ends, near)?;
-        let found = agreement(&mut self.places, &best.pose);
+        let there = self.places.matched(&fan(*told), &ends, Some(&near))?;
+        let found = self.places.agreement(&best.pose, &ends);
         let gain = (best.value - there.value) / ends.hits.len() as f64;
-        let is_proved = gain >= proof.gain && found.fits >= proof.fits && found.disputed() <= proof.disputed;
+        let is_proved = CLEAR.is_given(gain, &found) || less.is_some_and(|less| less.is_given(gain, &found));
         is_proved.then_some(best.pose)
     }
 }
@@ -283,7 +285,7 @@ impl Odometer {
 impl Last {
     /// Where the robot is after so long \[s\], if it goes on as it went.
     fn ahead(&self, elapsed: f64) -> Pose2 {
-        let times = if self.elapsed > 0.0 && elapsed > 0.0 { (elapsed / self.elapsed).min(3.0) } else { 1.0 };
+        let times = if self.elapsed > 0.0 && elapsed >= 0.0 { (elapsed / self.elapsed).min(3.0) } else { 1.0 };
         let Pose2 { x, y, theta } = self.motion;
         self.pose.compose(&Pose2::new(times * x, times * y, times * theta))
     }

@@ -17,7 +17,7 @@ pub fn match_scans(scans: &mut [LaserScan]) {
     for scan in scans {
         let ends = scan.end_points(longest, MAX_RANGE);
         let ahead = last.compose(&motion);
-        let pose = places.matched(&fan(ahead), &ends, |_| true).map_or(ahead, |best| best.pose);
+        let pose = places.searched(&fan(ahead), &last, &ends).map_or(ahead, |best| best.pose);
         places.take(pose, || ends);
         (motion, last) = (last.between(&pose), pose);
         scan.odometry = pose;

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// A yard of 40 m × 30 m with four houses in it, and a robot that goes once round between them: a laser of 180 beams, wheels with half the noise
 /// of the recorded logs (1.5° a metre), so that no step of 0.4 m is 5° off by itself.
-fn yard(seed: u64) -> Recipe {
+pub fn yard(seed: u64) -> Recipe {
     let mut plan = FloorPlan { size: [40.0, 30.0], walls: Vec::new(), furniture: Vec::new() };
     let mut house = |[x0, y0]: [f64; 2], [x1, y1]: [f64; 2]| {
         let corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
