@@ -57,7 +57,7 @@ impl fmt::Display for Remark {
                 "only the first of {scans} scans is mapped: by odometry and by what they see, the robot never moves"
             ),
             Self::NothingMet => {
-                f.write_str("the map is empty: no beam met anything within the longest range that counts")
+                f.write_str("the map is empty: hardly a beam met anything within the longest range that counts")
             }
             Self::OpenLoops { loops, time } => write!(
                 f,
