@@ -249,7 +249,6 @@ export class Figure implements Listener {
 
   #frame(now: number): void {
     if (!this.host) return
-    this.life.tellSize()
     const plays = this.life.playback.playing && this.frames.inView
     if (plays && !this.host.busy) this.#advance(now)
     this.host?.work(WORK_SLICE)
@@ -258,6 +257,7 @@ export class Figure implements Listener {
   }
 
   #paint(now: number): void {
+    this.life.tellSize()
     this.#show(this.host?.frame(now))
     this.view.showBusy(this.host?.busy ?? false)
   }
@@ -269,12 +269,12 @@ export class Figure implements Listener {
   async #catchUp(): Promise<void> {
     if (this.#catchingUp) return
     this.#catchingUp = true
-    for (;;) {
+    do {
       await yieldToMain()
-      if (!this.host?.busy || this.host.remote || !this.frames.waiting) break
+      if (!this.host || this.host.remote || !this.frames.waiting) break
       this.host.work(WORK_SLICE)
       if (this.#pictured && !this.host.busy) this.#paint(performance.now())
-    }
+    } while (this.host?.busy)
     this.#catchingUp = false
   }
 
