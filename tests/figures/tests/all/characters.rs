@@ -2,7 +2,7 @@
 //! looked up in every run of the tests, where the pictures are painted; those of all other states are breadth.
 
 use fastslam_widgets::{
-    font::{Weight, has},
+    font::has,
     model::{Kind, ParamSpec},
     registry::{self, FIGURES},
     scene::{Mark, Scene},
@@ -15,7 +15,7 @@ const LOG: &str = "fastslam-log";
 /// What a picture writes and the font does not have.
 pub fn missing(scene: &Scene) -> String {
     let texts = scene.marks.iter().filter_map(|mark| if let Mark::Text(text) = mark { Some(text) } else { None });
-    texts.flat_map(|text| text.text.chars().filter(|character| !has(*character, text.weight))).collect()
+    texts.flat_map(|text| text.text.chars().filter(|character| !has(*character))).collect()
 }
 
 /// Links to a figure's states: those of the goldens, and every parameter by itself at each of its ends and choices.
@@ -44,9 +44,9 @@ fn values(spec: &ParamSpec) -> Vec<String> {
     values
 }
 
-/// All characters a figure writes in a weight, in code point order.
-fn written(tag: &str) -> [BTreeSet<char>; 2] {
-    let mut written = [BTreeSet::new(), BTreeSet::new()];
+/// All characters a figure writes, in code point order.
+fn written(tag: &str) -> BTreeSet<char> {
+    let mut written = BTreeSet::new();
     // Without a log, it writes what it waits for.
     let files = if tag == LOG { vec![None, Some(TINY_LOG)] } else { vec![None] };
     for (link, file) in links(tag).into_iter().flat_map(|link| files.iter().map(move |file| (link.clone(), *file))) {
@@ -62,7 +62,7 @@ fn written(tag: &str) -> [BTreeSet<char>; 2] {
             for width in [240.0, 300.0, 340.0, 380.0, 480.0, 640.0, 800.0, 1280.0] {
                 for mark in figure.scene(width, figure.height(width)).marks {
                     if let Mark::Text(text) = mark {
-                        written[usize::from(text.weight == Weight::SemiBold)].extend(text.text.chars());
+                        written.extend(text.text.chars());
                     }
                 }
             }
@@ -75,10 +75,8 @@ fn written(tag: &str) -> [BTreeSet<char>; 2] {
 #[ignore = "breadth: every parameter of every figure at its ends and choices, at eight widths"]
 fn the_font_has_every_character_that_a_figure_writes() {
     let assert_has_all = |tag| {
-        for (weight, characters) in [Weight::Regular, Weight::SemiBold].into_iter().zip(written(tag)) {
-            let missing: String = characters.into_iter().filter(|&character| !has(character, weight)).collect();
-            assert_eq!(missing, "", "{tag} {weight:?}");
-        }
+        let missing: String = written(tag).into_iter().filter(|&character| !has(character)).collect();
+        assert_eq!(missing, "", "{tag}");
     };
     // A thread each: all together they take minutes.
     std::thread::scope(|scope| {
