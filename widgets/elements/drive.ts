@@ -22,6 +22,7 @@ const PAD: [name: 'forward' | 'left' | 'back' | 'right', picture: IconName, righ
 ]
 const ARROWS: Record<string, [number, number]> = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }
 
+const BELOW = 560 // [css px] where the map stands above the universes (widgets/src/lap/layout.rs), it would be out of sight of the pad
 const NEAR = 3 // [css px] between points of a line that is drawn
 const SVG = 'http://www.w3.org/2000/svg'
 
@@ -46,7 +47,6 @@ export class Drive implements Extra {
   readonly #before: Record<string, string>[] = [] // as the plan was, the newest last
   #tool: Tool = 'wheel'
   #alone = false // the map is shown alone
-  #wide = false // nothing stands beside the map, but below it: with all of it, the map would be out of sight of the pad
 
   constructor(private readonly figure: Figure) {
     const { view, words } = figure
@@ -103,7 +103,6 @@ export class Drive implements Extra {
     this.#opener.hidden = !area
     if (!area && this.#on) this.#close()
     this.#map.hidden = !this.#on
-    this.#wide = area !== undefined && area.w > 0.8 * this.figure.view.body.clientWidth
     if (area) Object.assign(this.#map.style, { left: `${area.x}px`, top: `${area.y}px`, width: `${area.w}px`, height: `${area.h}px` })
     const { plan, drive } = frame.values
     this.#undo.disabled = this.#before.length === 0
@@ -139,7 +138,7 @@ export class Drive implements Extra {
     this.#wheel.hidden = false
     view.tellIn(this.#wheel)
     view.body.classList.add('driving')
-    this.#alone = this.#wide
+    this.#alone = view.body.clientWidth < BELOW
     if (this.#alone) this.#showAlone(true)
     this.#take([...this.#tools].find(([, { disabled }]) => !disabled)?.[0] ?? 'wheel')
     this.#moved()
