@@ -46,8 +46,8 @@ impl AsRef<[LaserScan]> for LaserLog {
 }
 
 impl LaserLog {
-    /// Leaves out what scans see whose ranges are, to the bit, those of the one before, though the robot moved in between: a driver that sends its last scan
-    /// again. Their odometry stays, and leads on. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator
+    /// Takes the ranges from scans that repeat, to the bit, those of the scan before, though the robot moved in between: a driver that sends its last scan
+    /// again. Their odometry stays. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator
     /// draws without noise, all that is left out says nothing new.
     pub fn leave_repeated_out(&mut self) -> Option<(usize, f64)> {
         /// Fewer ranges may be equal by chance.

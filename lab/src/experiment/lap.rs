@@ -231,7 +231,7 @@ impl Lap {
         Some(&self.report)
     }
 
-    /// The same without a comparison with the truth: [`Self::report`] stays that of an earlier step.
+    /// One step of the filter, without a comparison with the truth: [`Self::report`] stays that of an earlier step.
     pub fn advance(&mut self) -> Option<Report<()>> {
         let k = self.particles()[0].path.step() as usize;
         let (control, scan) = (self.world.controls.get(k)?, self.world.scans.get(k)?);

@@ -293,7 +293,7 @@ fn save_session(arguments: &Arguments, mapper: &LaserMapper) -> Result<()> {
     arguments.session.as_deref().map_or(Ok(()), |path| session::write(mapper, path))
 }
 
-/// Leaves out what scans see that repeat the one before while the robot drives, and says so: how many there were.
+/// Takes the ranges from scans that repeat the one before while the robot drives, and says how many there were.
 fn leave_repeated_out(log: &mut LaserLog, name: &str) -> usize {
     let Some((count, time)) = log.leave_repeated_out() else { return 0 };
     eprintln!(

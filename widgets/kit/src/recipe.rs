@@ -269,7 +269,7 @@ trait Rows {
     /// Brings the value of a row into its range, as the rows above it have it now; its range. None beyond the last.
     fn confined(&mut self, row: usize) -> Option<ParamSpec>;
 
-    /// Of a text, what is allowed, where it means nothing.
+    /// Whether a text means anything in a row; if not, what is allowed.
     fn read(&self, row: usize, text: &str) -> Result<(), String>;
 
     fn set(&mut self, row: usize, value: Value);

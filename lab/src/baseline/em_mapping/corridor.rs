@@ -133,7 +133,7 @@ impl Kernel {
         first as usize..end as usize + 1
     }
 
-    /// The same with their probabilities.
+    /// Cells that a step from a cell may lead to, with their probabilities.
     pub fn from(&self, cell: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let last = self.cells as i64 - 1;
         // The cell that lies so many masses from the first, were there no walls.

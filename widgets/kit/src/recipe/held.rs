@@ -25,7 +25,7 @@ pub enum Held<R> {
 }
 
 impl<R> Held<R> {
-    /// What it is.
+    /// The value in a recipe.
     #[inline(never)]
     pub fn get(&self, recipe: &R) -> Value {
         match self {
@@ -40,7 +40,7 @@ impl<R> Held<R> {
         }
     }
 
-    /// Gives it a value that its parameter has checked.
+    /// Gives a recipe a value that its parameter has checked.
     #[inline(never)]
     pub fn set(&self, recipe: &mut R, value: Value) {
         match (self, value) {
@@ -58,7 +58,10 @@ impl<R> Held<R> {
         }
     }
 
-    /// Of a text, what is allowed, where it means nothing.
+    /// Whether a text means anything.
+    ///
+    /// # Errors
+    /// What is allowed, for one that means nothing.
     pub fn read(&self, text: &str) -> Result<(), String> {
         if let Self::Other(other) = self { other.read(text) } else { Ok(()) }
     }
