@@ -202,7 +202,7 @@ async function timeFilter({ file, universes }) {
 async function timeLog(log) {
   const universes = 16
   const native = JSON.parse(
-    (await run('cargo', ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', log, '--particles', `${universes}`, '--threads', '1', '--json'])).output,
+    (await run('cargo', ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', log, '--particles', `${universes}`, '--threads', '1', '--json'])).answer,
   )
   const [alone = NaN] = await browserTimes(join(root, 'widgets', 'pkg'), timeFilter, { file: readFileSync(log).toString('base64'), universes })
   const server = await startServer({ folder: dist })
@@ -245,8 +245,8 @@ async function timeLog(log) {
 
 /** What the tree of all paths holds, by way of resampling: t + 1 + c M ln M nodes. */
 async function treeOfPaths() {
-  const { output } = await run('cargo', ['bench', '--quiet', '--package', 'speed', '--bench', 'lineage'])
-  const trees = output.split('\n').filter(line => line.startsWith('{"tree"')).map(line => JSON.parse(line))
+  const { answer } = await run('cargo', ['bench', '--quiet', '--package', 'speed', '--bench', 'lineage'])
+  const trees = answer.split('\n').filter(line => line.startsWith('{"tree"')).map(line => JSON.parse(line))
   if (trees.length === 0) throw new StepError('The benchmark of the tree printed nothing that can be read.')
   const { steps, particles } = trees[0]
   say(bold(`\n  Nodes after ${steps} steps of ${particles} particles, bytes of all that the filter holds, and c of t + 1 + c M ln M`))

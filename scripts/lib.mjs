@@ -163,7 +163,8 @@ function explain(error) {
  * @param {string} command
  * @param {string[]} args
  * @param {{ cwd?: string, env?: Record<string, string>, hint?: string, quiet?: boolean }} [options] `quiet`: a failure is not printed
- * @returns {Promise<{ output: string }>} all it printed
+ * @returns {Promise<{ output: string, answer: string }>} all it printed, for readers, and what went to standard output alone, for programs:
+ * a tool may tell of its progress in between at any time
  */
 export function run(command, args, { cwd = root, env = {}, hint, quiet = false } = {}) {
   return new Promise((resolve, reject) => {
@@ -171,12 +172,13 @@ export function run(command, args, { cwd = root, env = {}, hint, quiet = false }
     if (live) console.log(dim(`  $ ${shown}`))
     const current = underWay.getStore()
     current?.log.write(`$ ${shown}\n`)
-    let output = ''
+    let [output, answer] = ['', '']
     const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'] })
     for (const stream of [child.stdout, child.stderr]) {
       stream.setEncoding('utf8')
       stream.on('data', chunk => {
         output += chunk
+        if (stream === child.stdout) answer += chunk
         current?.log.write(chunk)
         if (live) process.stdout.write(chunk)
       })
@@ -193,7 +195,7 @@ export function run(command, args, { cwd = root, env = {}, hint, quiet = false }
     })
     child.on('close', (code, signal) => {
       clearInterval(ticker)
-      if (code === 0) return resolve({ output })
+      if (code === 0) return resolve({ output, answer })
       if (!live && !quiet) say(aboutFailures(output))
       const error = new StepError(
         `${shown}: ${signal ? `ended by ${signal}` : `exit status ${code}`}`,

@@ -64,8 +64,8 @@ export async function npmFiles() {
 export async function packNpm() {
   await npmFiles()
   mkdirSync(packages, { recursive: true })
-  const { output } = await run('npm', ['pack', '--json', '--ignore-scripts', '--pack-destination', packages], { cwd: npm })
-  const [{ filename, size }] = JSON.parse(output.slice(output.indexOf('[\n'), output.lastIndexOf(']') + 1))
+  const { answer } = await run('npm', ['pack', '--json', '--ignore-scripts', '--pack-destination', packages], { cwd: npm })
+  const [{ filename, size }] = JSON.parse(answer)
   console.log(`  ${filename}: ${(size / 1e6).toFixed(2)} MB`)
   return join(packages, filename)
 }

@@ -18,8 +18,8 @@ if (isMain(import.meta)) {
     for (const threads of threadCounts(availableParallelism())) {
       const seconds = []
       for (let time = 0; time < 3; time++) {
-        const { output } = await run('cargo', ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', log, '--particles', particles, '--threads', `${threads}`, '--json'])
-        const { elapsed_s, digest } = JSON.parse(output.slice(output.indexOf('{'), output.lastIndexOf('}') + 1))
+        const { answer } = await run('cargo', ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', log, '--particles', particles, '--threads', `${threads}`, '--json'])
+        const { elapsed_s, digest } = JSON.parse(answer)
         if (fingerprint && digest !== fingerprint) throw new StepError(`The fingerprint on ${threads} threads is ${digest}, and not ${fingerprint}.`)
         fingerprint = digest
         seconds.push(elapsed_s)

@@ -1,10 +1,15 @@
 // What the scripts of tests conclude from what they see.
 import assert from 'node:assert/strict'
+import { readdirSync, readFileSync } from 'node:fs'
+import { join } from 'node:path'
 import { test } from 'node:test'
 import { stripVTControlCharacters } from 'node:util'
 import { itemsIn, judgeItems } from '../../scripts/items.mjs'
+import { run } from '../../scripts/lib.mjs'
 import { judge, judgeAll } from '../../scripts/sizes.mjs'
 import { counted } from '../../scripts/tally.mjs'
+
+const scripts = join(import.meta.dirname, '..', '..', 'scripts')
 
 test('every runner’s tests are counted, and whatever is not a success at once counts as failed', () => {
   const of = (/** @type {string} */ output) => {
@@ -18,6 +23,16 @@ test('every runner’s tests are counted, and whatever is not a success at once 
   assert.deepEqual(of('  2 failed\n    lap.spec.ts:3:1 › it plays\n  1 flaky\n  1 interrupted\n  4 did not run\n  3 skipped\n  40 passed (1.2m)\n'), [40, 8, 3])
   assert.deepEqual(of('✓ 00-a-fault\n7 passed, 1 failed, 0 skipped\n'), [7, 1, 0])
   assert.equal(counted('error: could not compile `fastslam` (lib test) due to 1 previous error\n'), undefined)
+})
+
+test('what a tool answers is kept apart from what it tells on the way, and no script reads the two as one', async () => {
+  const tool = "process.stdout.write('{\"a\":'); process.stderr.write('1 of 2\\n'); setTimeout(() => console.log('2}'), 50)"
+  const { output, answer } = await run(process.execPath, ['-e', tool])
+  assert.deepEqual(JSON.parse(answer), { a: 2 })
+  assert.match(output, /1 of 2/)
+  for (const file of readdirSync(scripts, { recursive: true, encoding: 'utf8' }).filter(name => name.endsWith('.mjs'))) {
+    assert.doesNotMatch(readFileSync(join(scripts, file), 'utf8'), /JSON\.parse\(\s*\(?(?:await run\([^;]*\)\)\.)?output\b/, file)
+  }
 })
 
 test('a size over its target is marked, and one more than 1 % above its baseline refused', async () => {
