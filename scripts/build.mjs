@@ -9,6 +9,7 @@ import { writeFrames } from './frames.mjs'
 import { checkGlue, gluePaths } from './glue.mjs'
 import { chapterPrograms, programFile, singlePrograms, writeLists } from './registry.mjs'
 import { setUp } from './setup.mjs'
+import { withoutUnasked } from './unasked.mjs'
 import { cache, capture, isMain, kilobytes, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
 
 /** Where the site is built; deliberate faults are built elsewhere. */
@@ -149,14 +150,15 @@ export async function build(singles = []) {
 async function optimise(file) {
   const input = readFileSync(file)
   const hash = createHash('sha256')
-  for (const other of [fileURLToPath(import.meta.url), join(root, 'node_modules', 'binaryen', 'package.json')]) hash.update(readFileSync(other))
+  for (const other of [fileURLToPath(import.meta.url), join(root, 'scripts', 'unasked.mjs'), join(root, 'node_modules', 'binaryen', 'package.json')]) hash.update(readFileSync(other))
   const folder = cache('wasm-opt', basename(file))
   const kept = join(folder, hash.update(input).digest('hex'))
   if (!existsSync(kept)) {
     rmSync(folder, { recursive: true, force: true })
     mkdirSync(folder, { recursive: true })
     const part = `${kept}.part`
-    await run(npmBin('wasm-opt'), [...optimiser, file, '-o', part])
+    writeFileSync(part, await withoutUnasked(input))
+    await run(npmBin('wasm-opt'), [...optimiser, part, '-o', part])
     renameSync(part, kept)
   }
   copyFileSync(kept, file)
