@@ -1,7 +1,7 @@
 // The canvas of a figure: how much room there is for the picture, how large it becomes, and its pixels.
 import type { Action } from './action'
 import { h } from './dom'
-import { release, reserve } from './heights'
+import { expected, release, reserve } from './heights'
 import type { Picture } from './host'
 import type { Layout } from './shell'
 import type { Theme } from './theme'
@@ -10,6 +10,16 @@ const FONT_SCALE = 1.5 // letters and lines of the presentation size, over the n
 const PICTURE_SHARE = 0.6 // of a frame's height, which the picture takes if the rest has to be scrolled
 const MAX_PIXELS = 6e6 // a canvas beyond this is painted coarser: no screen shows the difference, every phone feels it
 
+/** Whose stage or picture it is. */
+const canvases = new WeakMap<Element, Canvas>()
+
+/** One for all: what is asked of any of them is asked before something is written to one, so that the page is laid out once and not for each. */
+const sizes = new ResizeObserver(entries => {
+  const changed = new Set(entries.map(({ target }) => canvases.get(target)!))
+  const written = [...changed].map(canvas => canvas.resize(entries))
+  for (const write of written) write()
+})
+
 export class Canvas {
   readonly element = h('canvas', { part: 'canvas', role: 'img', 'aria-labelledby': 'title', 'aria-describedby': 'described' })
   #room = 0 // [css px] for the picture, sideways
@@ -17,7 +27,6 @@ export class Canvas {
   #highest = Infinity // [css px], so that picture and controls are on one screen
   #size = { css: 0, width: 0, height: 0 }
   #reserves = true // keeps the place free that the figure will take
-  readonly #sizes = new ResizeObserver(entries => this.#onResize(entries))
 
   constructor(
     private readonly figure: HTMLElement,
@@ -28,16 +37,21 @@ export class Canvas {
   ) {}
 
   observe(): void {
-    this.#sizes.observe(this.stage)
+    for (const element of this.#observed) canvases.set(element, this)
+    sizes.observe(this.stage)
     try {
-      this.#sizes.observe(this.element, { box: 'device-pixel-content-box' })
+      sizes.observe(this.element, { box: 'device-pixel-content-box' })
     } catch {
-      this.#sizes.observe(this.element) // Safari
+      sizes.observe(this.element) // Safari
     }
   }
 
   disconnect(): void {
-    this.#sizes.disconnect()
+    for (const element of this.#observed) sizes.unobserve(element)
+  }
+
+  get #observed(): Element[] {
+    return [this.stage, this.element]
   }
 
   /** The figure is there, or will not come: it takes what it takes. */
@@ -101,13 +115,17 @@ export class Canvas {
     return this.body.scrollHeight + this.body.offsetHeight - this.body.clientHeight - stage
   }
 
-  #onResize(entries: ResizeObserverEntry[]): void {
-    if (this.#reserves) reserve(this.body, this.figure)
+  /** Takes what is new of its sizes; what is to be written of it afterwards. */
+  resize(entries: ResizeObserverEntry[]): () => void {
+    const height = this.#reserves ? expected(this.figure) : undefined
     this.#highest = parseFloat(getComputedStyle(this.stage).getPropertyValue('--_highest')) || Infinity
     this.#room = entries.findLast(({ target }) => target === this.stage)?.contentRect.width ?? this.#room
     const entry = entries.findLast(({ target }) => target === this.element)
     if (entry) this.#measure(entry.contentRect, entry.devicePixelContentBoxSize?.[0])
-    this.resized()
+    return () => {
+      if (height !== undefined) reserve(this.body, height)
+      this.resized()
+    }
   }
 
   #measure(css: { width: number; height: number }, box?: ResizeObserverSize): void {

@@ -2,13 +2,18 @@
 import { apart, first, heights } from './heights.json'
 
 /**
- * Keeps free what this figure took where tests/e2e/heights.spec.ts measured it at this width. One whose author has set options is another:
- * of its height we know what `--fastslam-height` says.
+ * What this figure took where tests/e2e/heights.spec.ts measured it at this width [px]. One whose author has set options is another: of its
+ * height we know what `--fastslam-height` says, and else nothing.
  */
-export function reserve(body: HTMLElement, figure: HTMLElement): void {
+export function expected(figure: HTMLElement): number | undefined {
   const another = figure.matches('[fit], [size], [controls], [chips], [show]')
-  if (another && !getComputedStyle(figure).getPropertyValue('--fastslam-height')) return
-  body.style.setProperty('--_usual', `${usualHeight(figure.localName, figure.clientWidth)}px`)
+  if (another && !getComputedStyle(figure).getPropertyValue('--fastslam-height')) return undefined
+  return usualHeight(figure.localName, figure.clientWidth)
+}
+
+/** Keeps so much free [px]. */
+export function reserve(body: HTMLElement, height: number): void {
+  body.style.setProperty('--_usual', `${height}px`)
   body.classList.add('reserved')
 }
 

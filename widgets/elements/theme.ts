@@ -13,6 +13,7 @@ export type ThemeName = `${'' | 'contrast-'}${'light' | 'dark'}`
 
 export class Theme {
   #name: ThemeName = 'light'
+  #looked = false
   readonly #listeners: (() => void)[] = []
 
   /** Around the edge of the figure are the colours of the page; its own colours are those of the body. */
@@ -33,20 +34,24 @@ export class Theme {
   }
 
   get name(): ThemeName {
+    if (!this.#looked) this.look()
     return this.#name
   }
 
   get shade(): 'light' | 'dark' {
-    return this.#name.endsWith('dark') ? 'dark' : 'light'
+    return this.name.endsWith('dark') ? 'dark' : 'light'
   }
 
+  /** Looks in the frame that shows the figure first: by then all figures of the page stand, and its styles are computed once for all of them. */
   observe(signal: AbortSignal): void {
     for (const query of [dark, contrast, forced]) query.addEventListener('change', () => this.look(), { signal })
-    this.look()
+    this.#looked = false
+    requestAnimationFrame(() => !signal.aborted && this.look())
   }
 
   /** Looks around. */
   look(): void {
+    this.#looked = true
     const silent = getComputedStyle(this.figure).colorScheme === 'normal'
     const { color, letterSpacing, wordSpacing } = getComputedStyle(this.edge)
     this.body.classList.toggle('spaced', letterSpacing !== 'normal' || wordSpacing !== '0px')
