@@ -10,7 +10,7 @@ import { startServer } from './serve.mjs'
 /** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, from: number, by: number, atMost: number, file?: string }} Drag */
 
 /** Of each figure the slider that changes most of it; it is moved `from` a value by a notch or two each time, and `atMost` is in ms. @type {Drag[]} */
-const DRAGS = [
+export const DRAGS = [
   { what: 'lap, M = 16', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '16', step: '90' }, slider: 'odometry', from: 1, by: 0.05, atMost: 100 },
   { what: 'lap, M = 64', tag: 'fastslam-lap', attributes: { course: 'apartment', 'range-std': '0.02', overlay: 'off', universes: '64', step: '90' }, slider: 'odometry', from: 1, by: 0.05, atMost: 400 },
   { what: 'resampling, M = 64', tag: 'fastslam-resampling', attributes: { particles: '64', step: '90' }, slider: 'odometry', from: 1, by: 0.05, atMost: 1000 },

@@ -33,6 +33,7 @@ export const units = [
   { name: 'page-one-screen', seconds: 60, command: page('/one-screen.spec.ts') },
   { name: 'page-screens', seconds: 85, command: page('/screens.spec.ts /heights.spec.ts') },
   { name: 'page-whole', seconds: 170, command: page('/whole.spec.ts') },
+  { name: 'page-tasks', seconds: 120, command: page('/tasks.spec.ts') },
   { name: 'page-themes', seconds: 160, command: page('/checks.spec.ts /deck.spec.ts /german.spec.ts /options.spec.ts /styles.spec.ts /vignettes.spec.ts') },
   { name: 'page-embed', seconds: 160, command: page('/assign.spec.ts /embed.spec.ts /embed-docs.spec.ts /course.spec.ts /teachers.spec.ts /walk.spec.ts /worksheets.spec.ts') },
   // On a browser that tells late what is in sight and what has arrived, as a busy machine's does.
