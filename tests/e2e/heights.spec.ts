@@ -45,6 +45,7 @@ for (const tag of programs.keys()) {
     await page.goto('heights')
     const all = page.locator(tag)
     const heights = () => all.evaluateAll(elements => elements.map(element => Math.round(element.getBoundingClientRect().height)))
+    await page.evaluate(async tag => void (await customElements.whenDefined(tag)), tag)
     await expect(all.locator('.reserved')).toHaveCount(tag === 'fastslam-log' ? 0 : widths.length)
     await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))))
     const before = await heights()
