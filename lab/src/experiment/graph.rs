@@ -280,7 +280,7 @@ impl GraphLap {
     pub fn pending(&self) -> u32 {
         let left = self.world().controls.len() - self.build.step_now();
         let solving = if self.solved { 0 } else { 1 + ITERATIONS.saturating_sub(self.frames.len() as u32) };
-        left as u32 + solving + self.universes.step_count() - self.universes.report().step
+        left as u32 + solving + self.universes.step_count() - self.universes.step_now()
     }
 
     /// A step of the log, then an iteration, then a step of the particle filter.
@@ -292,7 +292,7 @@ impl GraphLap {
             return self.build.step().map(drop);
         }
         if self.solved {
-            self.universes.step();
+            self.universes.follow();
             return Ok(());
         }
         match &mut self.optimizer {

@@ -224,6 +224,11 @@ impl Lap {
         self.world.controls.len() as u32
     }
 
+    /// Steps made so far.
+    pub fn step_now(&self) -> u32 {
+        self.particles()[0].path.step()
+    }
+
     /// One step of the filter; `None` after the last.
     pub fn step(&mut self) -> Option<&StepReport> {
         let report = self.advance()?;
@@ -233,9 +238,17 @@ impl Lap {
 
     /// One step of the filter, without a comparison with the truth: [`Self::report`] stays that of an earlier step.
     pub fn advance(&mut self) -> Option<Report<()>> {
-        let k = self.particles()[0].path.step() as usize;
+        let k = self.step_now() as usize;
         let (control, scan) = (self.world.controls.get(k)?, self.world.scans.get(k)?);
         Some(self.filter.step(control, scan))
+    }
+
+    /// One step of the filter, while there is one. Only the last is compared with the truth.
+    pub fn follow(&mut self) {
+        let report = self.advance().filter(|_| self.step_now() == self.step_count());
+        if let Some(report) = report {
+            self.report = self.judge(report);
+        }
     }
 
     /// Compares the filter's newest state with the truth.

@@ -15,7 +15,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let done = model.universes();
     let rest = match done {
         Some(_) => words::same_log().to_string(),
-        None => words::UniversesStep { step: &lap.report().step, last: &lap.step_count() }.say(),
+        None => words::UniversesStep { step: &lap.step_now(), last: &lap.step_count() }.say(),
     };
     scene.heading_fit(&layout.universes_header, (&title, Role::Ink), &[rest]);
     let area = centred(&layout.universes);
