@@ -242,6 +242,15 @@ impl Doors {
         Ok(Self { setup: setup.clone(), log: Log::new(setup), filter, ekf, step: 0, beliefs, ekf_belief })
     }
 
+    /// This run from where another one is, as far as both are the same: where that one has not ridden yet, and its setup differs in nothing but
+    /// the ride. Else it is left as it is.
+    pub fn resumed(self, other: &Self) -> Self {
+        let DoorsSetup { ride_std, end, .. } = self.setup;
+        let alike = self.setup == DoorsSetup { ride_std, end, ..other.setup.clone() };
+        let to_ride = other.step <= other.log.ride;
+        if alike && to_ride { Self { setup: self.setup, log: self.log, ..other.clone() } } else { self }
+    }
+
     /// What was set.
     pub fn setup(&self) -> &DoorsSetup {
         &self.setup

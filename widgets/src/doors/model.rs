@@ -17,6 +17,8 @@ use fastslam_lab::experiment::doors::{Doors, DoorsReport, DoorsSetup};
 pub struct DoorsModel {
     recipe: Recipe,
     run: Doors,
+    /// The same before the ride, once it is that far: whoever drags the ride has the drive up to it already.
+    mapped: Option<Doors>,
     /// Of every step simulated so far, from 0 on: any of them can be shown.
     reports: Vec<DoorsReport>,
     /// Of the run that is pinned: from the ride on, how many doors EKF-SLAM is off at each step.
@@ -27,7 +29,7 @@ impl Default for DoorsModel {
     fn default() -> Self {
         let recipe = Recipe::default();
         let run = in_range(Doors::new(&recipe.setup()));
-        Self { reports: vec![run.start()], recipe, run, pinned: Curves::new() }
+        Self { reports: vec![run.start()], recipe, run, mapped: None, pinned: Curves::new() }
     }
 }
 
@@ -108,8 +110,15 @@ impl Declared for DoorsModel {
     fn adopt(&mut self, recipe: Recipe) -> Result<(), FigureError> {
         let setup = recipe.setup();
         if setup != *self.setup() {
-            self.run = Doors::new(&setup).map_err(refused)?;
-            self.reports = vec![self.run.start()];
+            let begun = Doors::new(&setup).map_err(refused)?;
+            self.run = match &self.mapped {
+                Some(mapped) => begun.resumed(mapped),
+                None => begun,
+            };
+            self.reports.truncate(self.run.step_number() as usize + 1);
+            if self.run.step_number() == 0 {
+                (self.mapped, self.reports) = (None, vec![self.run.start()]);
+            }
         }
         self.recipe = recipe;
         Ok(())
@@ -150,6 +159,9 @@ impl Model for DoorsModel {
 
     fn work(&mut self) {
         if self.pending() > 0 {
+            if self.run.step_number() + 1 == self.ride() {
+                self.mapped = Some(self.run.clone());
+            }
             self.reports.extend(self.run.step());
         }
     }

@@ -46,6 +46,18 @@ fn who_is_at_the_end_stays_there_when_the_end_moves() {
 }
 
 #[test]
+fn whoever_drags_the_ride_sees_what_a_link_to_it_shows() {
+    let mut dragged = figure(TAG, "");
+    for (name, value) in [("ride", "1"), ("end", "9"), ("ride", "6.5"), ("range", "0.2"), ("ride", "2")] {
+        dragged.set(name, value).unwrap();
+        dragged.model_mut().settle();
+        let linked = figure(TAG, &dragged.query());
+        assert_eq!(dragged.model().series(), linked.model().series(), "{name} = {value}");
+        assert_eq!(dragged.scene(800.0, 500.0), linked.scene(800.0, 500.0), "{name} = {value}");
+    }
+}
+
+#[test]
 fn doors_and_the_end_of_the_ride_are_dragged_along_their_walls() {
     let mut figure = figure(TAG, "");
     let at = |figure: &Figure, name: &str| {

@@ -141,3 +141,23 @@ fn settings_out_of_range_are_named() {
         assert_eq!(refused(DoorsSetup { doors, ..usual() }), "doors");
     }
 }
+
+/// Before the ride nothing knows of it: with another one the drive goes on as if it had been that from the start.
+#[test]
+fn another_ride_after_the_same_drive_is_as_if_it_were_the_first() {
+    let setup = DoorsSetup { seed: 3, particles: 20, ..DoorsSetup::default() };
+    let rest = |mut doors: Doors| -> Vec<DoorsReport> { core::iter::from_fn(|| doors.step()).collect() };
+    let mut mapped = Doors::new(&setup).unwrap();
+    let before = mapped.events()[0] - 1;
+    (0..before).for_each(|_| drop(mapped.step()));
+    let resumed = |other: &DoorsSetup, from: &Doors| Doors::new(other).unwrap().resumed(from);
+    for other in [DoorsSetup { ride_std: 1.0, ..setup.clone() }, DoorsSetup { end: Some(9.0), ..setup.clone() }] {
+        let ridden = rest(resumed(&other, &mapped));
+        assert_eq!(ridden, rest(Doors::new(&other).unwrap())[before as usize..]);
+        assert_ne!(ridden, rest(mapped.clone()));
+    }
+    let other = DoorsSetup { sensor_std: 0.2, ..setup.clone() };
+    assert_eq!(resumed(&other, &mapped).step_number(), 0, "another drive");
+    drop(mapped.step());
+    assert_eq!(resumed(&setup, &mapped).step_number(), 0, "its ride is over");
+}
