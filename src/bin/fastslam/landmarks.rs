@@ -16,7 +16,8 @@ use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::innovations::{Innovations, Predicts};
 use fastslam_lab::experiment::landmarks::{
-    self, CorrespondenceKind, Course, LandmarkLog, LandmarkRun, LandmarkSetup, Tuning, WithLandmarks,
+    self, AssociationSummary, CorrespondenceKind, Course, LandmarkLog, LandmarkReport, LandmarkRun, LandmarkSetup,
+    Tuning, WithLandmarks,
 };
 use fastslam_lab::experiment::{camera, car};
 use indicatif::ParallelProgressIterator;
@@ -112,34 +113,39 @@ struct Task<D: Motion, F> {
     recorded: bool,
     /// Where the tuning comes from.
     noises: String,
+    /// What is to be told of the log.
+    remarks: Vec<String>,
 }
 
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let noises = arguments.settings.read()?;
+    let named = arguments.association == CorrespondenceKind::Known;
     let told = |from: &str| if noises.is_empty() { from.into() } else { format!("{from}, and as set") };
     if let Some(prefix) = &arguments.mrclam {
-        let log = Arc::new(mrclam::read(prefix)?);
         let tuning = noises.adjust(camera::tuning())?;
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES) }.run(arguments);
+        let (log, remarks) = mrclam::read(prefix, &tuning.sensor, named)?;
+        let log = Arc::new(log);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES), remarks }
+            .run(arguments);
     }
     if let Some(folder) = &arguments.victoria {
         let tuning = noises.adjust(car::tuning())?;
-        let named = arguments.association == CorrespondenceKind::Known;
-        let log = Arc::new(victoria::read(folder, &tuning.motion, named)?);
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(victoria::NOISES) }
+        let (log, remarks) = victoria::read(folder, &tuning.motion, &tuning.sensor, named)?;
+        let log = Arc::new(log);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(victoria::NOISES), remarks }
             .run(arguments);
     }
     if let Some(path) = &arguments.g2o {
         let (log, tuning) = landmark_graph::read(path)?;
         let (log, tuning) = (Arc::new(log), noises.adjust(tuning)?);
         let noises = told(landmark_graph::NOISES);
-        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises }.run(arguments);
+        return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises, remarks: Vec::new() }.run(arguments);
     }
     let course = arguments.course;
     let tuning = noises.adjust(course.tuning())?;
     let log = |seed| Arc::new(course.simulate(seed));
-    Task { log, tuning, recorded: false, noises: told("those of the course") }.run(arguments)
+    Task { log, tuning, recorded: false, noises: told("those of the course"), remarks: Vec::new() }.run(arguments)
 }
 
 impl<D, F> Task<D, F>
@@ -189,7 +195,7 @@ where
             let run = run(arguments.seed)?;
             let setup = setup(arguments.seed);
             let others = Others { ekf: run.rms_ekf(&setup, &self.tuning), late: rms_late(&run, &setup)? };
-            return one(arguments, run, others, &self.noises);
+            return one(arguments, run, others, (&self.noises, &self.remarks));
         };
         let first = run(1)?; // refused before anything is run, if it is
         // EKF-SLAM draws nothing: on a recorded log it is the same for every seed.
@@ -200,20 +206,20 @@ where
             .progress_with(progress(seeds.len(), "runs"))
             .map(|seed| {
                 let mut run = run(*seed)?;
-                let (mut innovations, mut founded) = (Innovations::default(), 0);
+                let (mut innovations, mut steps) = (Innovations::default(), Steps::default());
                 while let Some(report) = innovations.step(&mut run) {
-                    founded += report.best.first;
+                    steps.add(&report);
                 }
                 let others = Others {
                     ekf: recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &self.tuning)),
                     late: rms_late(&run, &setup(*seed))?,
                 };
                 let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                let outcome = outcome(&run, innovations, founded);
+                let outcome = outcome(&run, innovations, steps);
                 Ok(Errors { online: run.rms_online(), others, path, outcome })
             })
             .collect();
-        many(arguments, &errors?, &self.noises, D::NAMES)
+        many(arguments, &errors?, (&self.noises, &self.remarks), D::NAMES)
     }
 }
 
@@ -223,21 +229,48 @@ struct Others {
     late: Option<f64>,
 }
 
+/// What is counted of the steps of a run.
+#[derive(Clone, Copy, Default)]
+struct Steps {
+    taken: u32,
+    /// Landmarks that were founded, by the best particles.
+    founded: u32,
+    /// Most successive steps, and those up to now, without a landmark of the map in view.
+    blind: u32,
+    blind_now: u32,
+}
+
+impl Steps {
+    fn add(&mut self, report: &LandmarkReport) {
+        let AssociationSummary { again, first, .. } = report.best;
+        self.taken += 1;
+        self.founded += first;
+        self.blind = self.blind.max(self.blind_now);
+        self.blind_now = if again > 0 { 0 } else { self.blind_now + 1 };
+    }
+}
+
 /// What is known of a run at its end.
-fn outcome<D, M, P>(run: &LandmarkRun<D, M, P>, innovations: Innovations, founded: u32) -> Outcome
+fn outcome<D, M, P>(run: &LandmarkRun<D, M, P>, innovations: Innovations, steps: Steps) -> Outcome
 where
     D: Motion + Clone,
     M: WithLandmarks,
     P: Predicts<M, Control = D::Control>,
 {
     let map = run.particles()[run.best()].map.landmarks();
-    let seen: BTreeSet<u32> = run.log().sightings.iter().flatten().filter_map(|feature| feature.signature).collect();
+    let sighted = run.log().sightings.iter().flatten();
+    let named: Vec<u32> = sighted.clone().filter_map(|feature| feature.signature).collect();
+    // Where most have no name, names do not tell what was there.
+    let seen: BTreeSet<u32> =
+        if 2 * named.len() < sighted.count() { BTreeSet::new() } else { named.into_iter().collect() };
     Outcome {
         innovations: (innovations.count(), innovations.mean(), innovations.share_beyond()),
         unknown: matches!(map.correspondence(), Correspondence::Unknown(_)),
         drift: run.drift(),
         left: map.iter().count() as f64,
-        founded: f64::from(founded),
+        founded: f64::from(steps.founded),
+        blind: f64::from(steps.blind.max(steps.blind_now)) / f64::from(steps.taken.max(1)),
+        errors: [run.rms_online(), run.rms_odometry()],
         there: seen.len() as f64,
     }
 }

@@ -6,6 +6,7 @@ mod log;
 mod mrclam;
 mod picture;
 mod remarks;
+mod sense;
 mod settings;
 mod victoria;
 

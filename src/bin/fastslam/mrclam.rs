@@ -1,14 +1,16 @@
 //! Logs of the UTIAS multi-robot dataset (Leung, Halpern, Barfoot, Liu, IJRR 2011): one robot among landmarks with bar codes, and its
 //! true path by motion capture.
 
+use crate::sense::Drive;
 use crate::{Usage, in_file};
 use anyhow::{Context, Result, bail};
 use fastslam::geometry::Pose2;
 use fastslam::motion::Velocity;
 use fastslam::ops;
-use fastslam::sensor::Feature;
+use fastslam::sensor::{Feature, RangeBearing};
 use fastslam_lab::experiment::landmarks::LandmarkLog;
 use nalgebra::Vector2;
+use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 /// Where [`camera::tuning`](fastslam_lab::experiment::camera::tuning) comes from, in words that are printed with every error. The data set states no noises; what is read off a log's own
@@ -22,8 +24,8 @@ const ONE_LOOK: f64 = 0.02;
 const LONGEST_STEP: f64 = 0.5;
 
 /// Reads PREFIX-barcodes.dat, -landmarks.dat and -robot1-{odometry,measurement,groundtruth}.dat. PREFIX may name the robot:
-/// PREFIX-robot2.
-pub fn read(prefix: &Path) -> Result<LandmarkLog> {
+/// PREFIX-robot2. Returns the log with what is to be told of it; `named` is whether bar codes are read.
+pub fn read(prefix: &Path, sensor: &RangeBearing, named: bool) -> Result<(LandmarkLog, Vec<String>)> {
     let text = prefix.to_string_lossy();
     let text = text.trim_end_matches('-');
     let (set, robot) = match text.rsplit_once("-robot") {
@@ -49,6 +51,7 @@ pub fn read(prefix: &Path) -> Result<LandmarkLog> {
         landmarks: landmarks.iter().map(|row| Vector2::new(row[1], row[2])).collect(),
         ..LandmarkLog::default()
     };
+    let mut remarks = of_rows(&measurements, |barcode| barcodes.iter().any(|row| row[1] == barcode), &signature, named);
     let mut looks = Vec::new();
     let mut rest = &measurements[..];
     while let Some([time, ..]) = rest.first().copied() {
@@ -57,13 +60,46 @@ pub fn read(prefix: &Path) -> Result<LandmarkLog> {
         rest = after;
         let feature =
             |row: &[f64; 4]| Feature { z: Vector2::new(row[2], ops::wrap_angle(row[3])), signature: signature(row[1]) };
-        looks.push((time, look.iter().map(feature).collect()));
+        // A row that is there twice is one measurement.
+        let once = look.iter().enumerate().filter(|(k, row)| !look[..*k].contains(row));
+        looks.push((time, once.map(|(_, row)| feature(row)).collect()));
     }
+    let used = used(&odometry, &truth);
+    remarks.extend(Drive { odometry: &odometry, looks: &looks, used, sensor }.remarks());
     let log = drive(log, &odometry, &truth, looks, |pose, control| control.apply(pose));
     if log.controls.is_empty() {
         bail!(Usage::of_file(prefix, "no measurement falls into the time of both odometry and ground truth"));
     }
-    Ok(log)
+    Ok((log, remarks))
+}
+
+/// What measurements, rows of time, bar code, range and bearing, say against the list of bar codes, the landmarks and each other.
+fn of_rows(
+    rows: &[[f64; 4]],
+    is_listed: impl Fn(f64) -> bool,
+    signature: &impl Fn(f64) -> Option<u32>,
+    named: bool,
+) -> Vec<String> {
+    let count = |of: &dyn Fn(&[f64; 4]) -> bool| rows.iter().filter(|row| of(row)).count();
+    let (all, unlisted) = (rows.len(), count(&|row| !is_listed(row[1])));
+    let nameless = count(&|row| signature(row[1]).is_none());
+    let mut remarks = Vec::new();
+    if named && (20 * unlisted > all || 2 * nameless > all) {
+        remarks.push(format!(
+            "{nameless} of {all} measurements are passed over: their bar code is no landmark's, and {unlisted} are in no list of bar codes; say \
+             --association unknown to use them"
+        ));
+    }
+    let most = rows.iter().map(|row| row[3].abs()).fold(0.0, f64::max);
+    if most > TAU {
+        remarks.push(format!("bearings go up to {most:.1}: they must be in radians"));
+    }
+    remarks
+}
+
+/// First and last second in which there is both odometry and truth.
+pub fn used(odometry: &[[f64; 3]], truth: &[[f64; 4]]) -> [f64; 2] {
+    [odometry[0][0].max(truth[0][0]), odometry[odometry.len() - 1][0].min(truth[truth.len() - 1][0])]
 }
 
 /// Appends a drive to a log: a step to every look, and where nothing is seen for long, some between. Rows of `odometry` are time \[s\],
@@ -75,8 +111,7 @@ pub fn drive(
     looks: Vec<(f64, Vec<Feature>)>,
     apply: impl Fn(&Pose2, &Velocity) -> Pose2,
 ) -> LandmarkLog {
-    let start = odometry[0][0].max(truth[0][0]);
-    let end = odometry[odometry.len() - 1][0].min(truth[truth.len() - 1][0]);
+    let [start, end] = used(odometry, truth);
     let mut now = start;
     log.truth.push(pose_at(truth, start));
     log.odometry.push(log.truth[0]);

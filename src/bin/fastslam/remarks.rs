@@ -17,15 +17,25 @@ pub struct Outcome {
     pub founded: f64,
     /// Different landmarks that were truly seen, where their names are known; 0 where they are not.
     pub there: f64,
+    /// Share of the steps in the longest stretch in which no landmark of the best map was seen.
+    pub blind: f64,
+    /// RMS errors of position as it went, of the filter and of raw odometry \[m\].
+    pub errors: [f64; 2],
 }
 
 /// Without names: of a map of which less than this share is left, too much was struck off. Other robots, which come and go, take two thirds.
 const LEAST_LEFT: f64 = 0.2;
 
+/// Longest stretch without a landmark of the map, as a share of the steps, that is not worth a word.
+const LONGEST_BLIND: f64 = 0.25;
+
 impl Outcome {
     /// The remarks, each with what to change. `noises` are the options that set the noise of the odometry.
     pub fn remarks(&self, noises: &[&str]) -> Vec<String> {
-        [self.of_noises(noises), self.of_landmarks()].into_iter().flatten().collect()
+        [self.of_noises(noises), self.of_landmarks(), self.of_stretches(), self.of_errors()]
+            .into_iter()
+            .flatten()
+            .collect()
     }
 
     fn of_noises(&self, noises: &[&str]) -> Option<String> {
@@ -74,6 +84,26 @@ impl Outcome {
              merge less (--merge)"
         ))
     }
+
+    fn of_stretches(&self) -> Option<String> {
+        (self.blind > LONGEST_BLIND).then(|| {
+            format!(
+                "no landmark of the map was seen for {:.0} % of the steps on end: there the path is raw odometry, and landmarks may have gone or \
+                 measurements be missing",
+                100.0 * self.blind
+            )
+        })
+    }
+
+    fn of_errors(&self) -> Option<String> {
+        let [online, odometry] = self.errors;
+        (online > 1.1 * odometry).then(|| {
+            format!(
+                "the filter errs by {online:.2} m where raw odometry errs by {odometry:.2} m: its landmarks lead it astray; look at units, signs \
+                 and clocks of the log, or run more --particles"
+            )
+        })
+    }
 }
 
 #[cfg(test)]
@@ -87,6 +117,8 @@ mod tests {
         left: 18.0,
         founded: 57.0,
         there: 15.0,
+        blind: 0.1,
+        errors: [0.5, 2.4],
     };
 
     fn said(outcome: Outcome) -> String {
@@ -133,5 +165,13 @@ mod tests {
         assert!(said(nameless).starts_with("only 8 of the 900 landmarks that were mapped"), "{}", said(nameless));
         let many = Outcome { left: 406.0, there: 151.0, ..GOOD };
         assert!(said(many).starts_with("the best map has 406 landmarks where 151 were seen"), "{}", said(many));
+    }
+
+    #[test]
+    fn a_long_stretch_without_landmarks_and_a_filter_worse_than_odometry_are_told() {
+        let blind = said(Outcome { blind: 0.5, ..GOOD });
+        assert!(blind.starts_with("no landmark of the map was seen for 50 % of the steps on end"), "{blind}");
+        let astray = said(Outcome { errors: [5.1, 4.4], ..GOOD });
+        assert!(astray.starts_with("the filter errs by 5.10 m where raw odometry errs by 4.40 m"), "{astray}");
     }
 }

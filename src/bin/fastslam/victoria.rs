@@ -3,12 +3,13 @@
 //! Columns are apart by commas or blanks. DRS: time \[s\], speed of the left rear wheel \[m/s\], steering angle \[rad\]. GPS: time, x, y \[m\]. LASER:
 //! time and 361 ranges \[m\] from right to left. In place of LASER a folder may have SIGHTINGS.txt: time, range \[m\], bearing \[rad\], number of the tree.
 
+use crate::sense::Drive;
 use crate::{Usage, mrclam};
 use anyhow::{Result, bail};
 use fastslam::geometry::Pose2;
 use fastslam::motion::{Car, Motion};
 use fastslam::ops;
-use fastslam::sensor::Feature;
+use fastslam::sensor::{Feature, RangeBearing};
 use fastslam_lab::experiment::car::WHEEL_ASIDE;
 use fastslam_lab::experiment::landmarks::LandmarkLog;
 use nalgebra::Vector2;
@@ -23,8 +24,9 @@ const HEADING_FROM: f64 = 3.0;
 /// Most trees that a log may number.
 const MOST_TREES: f64 = 100_000.0;
 
-/// Reads a folder. Its truth is the GPS, as far as that is one: to some metres, with gaps, and its first leg for the heading of the start.
-pub fn read(folder: &Path, car: &Car, named: bool) -> Result<LandmarkLog> {
+/// Reads a folder. Its truth is the GPS, as far as that is one: to some metres, with gaps, and its first leg for the heading of the start. Returns the log
+/// with what is to be told of it.
+pub fn read(folder: &Path, car: &Car, sensor: &RangeBearing, named: bool) -> Result<(LandmarkLog, Vec<String>)> {
     let drs = mrclam::timed(&folder.join("DRS.txt"), ["time [s]", "speed [m/s]", "steering angle [rad]"])?;
     if let Some(row) = drs.iter().find(|row| row[2].abs() > 1.5) {
         let said = format_args!("time {}: steering angle {}: must be from -1.5 to 1.5 [rad]", row[0], row[2]);
@@ -78,11 +80,13 @@ pub fn read(folder: &Path, car: &Car, named: bool) -> Result<LandmarkLog> {
     }
     let log = LandmarkLog { landmarks: vec![Vector2::zeros(); trees], ..LandmarkLog::default() };
     let odometry: Vec<[f64; 3]> = velocities.collect();
+    let used = mrclam::used(&odometry, &truth);
+    let remarks = Drive { odometry: &odometry, looks: &looks, used, sensor }.remarks();
     let log = mrclam::drive(log, &odometry, &truth, looks, |pose: &Pose2, control| car.apply(pose, control));
     if log.controls.is_empty() {
         bail!(Usage::of_file(folder, "nothing is seen in the time of both DRS.txt and GPS.txt"));
     }
-    Ok(log)
+    Ok((log, remarks))
 }
 
 /// What is narrower than a metre and stands in front of everything beside it, up to 75 m: its middle.

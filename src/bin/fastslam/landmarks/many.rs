@@ -64,6 +64,8 @@ fn median_outcome(errors: &[Errors]) -> Outcome {
         left: median(&|outcome| outcome.left),
         founded: median(&|outcome| outcome.founded),
         there: median(&|outcome| outcome.there),
+        blind: median(&|outcome| outcome.blind),
+        errors: [0, 1].map(|k| median(&|outcome| outcome.errors[k])),
         drift: of_first
             .drift
             .map(|_| [0, 1].map(|k| median(&|outcome| outcome.drift.map_or(f64::NAN, |drift| drift[k])))),
@@ -72,7 +74,12 @@ fn median_outcome(errors: &[Errors]) -> Outcome {
 }
 
 /// Prints how far off so many runs were.
-pub(super) fn many(arguments: &Arguments, errors: &[Errors], noises: &str, options: &[&str]) -> Result<()> {
+pub(super) fn many(
+    arguments: &Arguments,
+    errors: &[Errors],
+    (noises, of_log): (&str, &[String]),
+    options: &[&str],
+) -> Result<()> {
     let spread = |of: &dyn Fn(&Errors) -> f64| spread(errors, of);
     let median = median_outcome(errors);
     let summary = Summary {
@@ -87,7 +94,7 @@ pub(super) fn many(arguments: &Arguments, errors: &[Errors], noises: &str, optio
         landmarks: spread(&|errors| errors.outcome.left),
         drift: median.drift,
         innovation: median.innovations.1,
-        remarks: median.remarks(options),
+        remarks: [of_log, &median.remarks(options)].concat(),
     };
     say(&summary.remarks);
     if arguments.json {

@@ -1,6 +1,6 @@
 //! One run: what it prints of its errors, and of every step for programs.
 
-use super::{Arguments, Others, drift_row, innovation_row, outcome, say};
+use super::{Arguments, Others, Steps, drift_row, innovation_row, outcome, say};
 use crate::settings::Adjust;
 use crate::{picture, print, print_json};
 use anyhow::Result;
@@ -47,7 +47,7 @@ pub(super) fn one<D, M, P>(
     arguments: &Arguments,
     mut run: LandmarkRun<D, M, P>,
     others: Others,
-    noises: &str,
+    (noises, of_log): (&str, &[String]),
 ) -> Result<()>
 where
     D: Motion + Adjust + Clone,
@@ -63,8 +63,10 @@ where
     }
     let footprint = run.footprint();
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
-    let outcome = outcome(&run, innovations, steps.iter().map(|step| step.best.first).sum());
-    let remarks = outcome.remarks(D::NAMES);
+    let mut counted = Steps::default();
+    steps.iter().for_each(|step| counted.add(step));
+    let outcome = outcome(&run, innovations, counted);
+    let remarks = [of_log, &outcome.remarks(D::NAMES)].concat();
     let output = Output {
         noises: noises.into(),
         rms_best: run.rms_best(),

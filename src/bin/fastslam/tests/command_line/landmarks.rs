@@ -298,3 +298,73 @@ fn noises_that_are_contradicted_and_landmarks_that_vanish_are_told() {
     let few = told("--association unknown --max-range 50 --field-of-view 6.28");
     assert!(few.contains("of the 24 landmarks that were seen are left in the best map"), "{few}");
 }
+
+/// Association, what is to be told, and what spoils the log.
+type Spoiled<'a> = (&'a str, &'a str, &'a dyn Fn(&mut Rows));
+
+/// Rows of an MRCLAM log: odometry, and measurements.
+type Rows = (Vec<[f64; 3]>, Vec<[f64; 4]>);
+
+/// The simulated camera among posts as the files of an MRCLAM log, spoiled by this. Bar codes from 100 on are posts, 200 is another robot.
+fn camera_log(folder: &TempDir, spoil: impl Fn(&mut Rows)) -> String {
+    use fastslam_lab::experiment::camera;
+    let log = camera::simulate(1);
+    let (mut rows, mut truth): (Rows, String) = Default::default();
+    let line = |row: &[f64]| row.iter().map(f64::to_string).collect::<Vec<_>>().join(" ") + "\n";
+    for k in 0..400 {
+        let (control, pose, time) = (&log.controls[k], &log.truth[k], 0.6 * k as f64);
+        rows.0.push([time, control.speed, control.turn_rate]);
+        truth += &line(&[time, pose.x, pose.y, pose.theta]);
+        let code = |signature: Option<u32>| signature.map_or(200.0, |signature| f64::from(100 + signature));
+        rows.1.extend(log.sightings[k].iter().map(|seen| [time + 0.6, code(seen.signature), seen.z.x, seen.z.y]));
+    }
+    spoil(&mut rows);
+    let posts = (0..log.landmarks.len()).map(|k| (6.0 + k as f64, 100.0 + k as f64, log.landmarks[k]));
+    let barcodes: String = posts.clone().map(|(subject, code, _)| line(&[subject, code])).collect();
+    let posts: String = posts.map(|(subject, _, at)| line(&[subject, at.x, at.y, 0.0, 0.0])).collect();
+    for (name, text) in [
+        ("barcodes", format!("1 200\n{barcodes}")),
+        ("landmarks", posts),
+        ("robot1-groundtruth", truth),
+        ("robot1-odometry", rows.0.iter().map(|row| line(row)).collect()),
+        ("robot1-measurement", rows.1.iter().map(|row| line(row)).collect()),
+    ] {
+        std::fs::write(folder.path().join(format!("log-{name}.dat")), text).unwrap();
+    }
+    folder.path().join("log").display().to_string()
+}
+
+#[test]
+fn a_log_that_contradicts_itself_is_told_and_a_sound_one_is_not() {
+    let folder = tempdir().unwrap();
+    let told = |association: &str, spoil: &dyn Fn(&mut Rows)| {
+        let prefix = camera_log(&folder, spoil);
+        json(&format!("landmarks --particles 30 --association {association} --json --mrclam {prefix}"))
+    };
+    let sound = ["known", "unknown"].map(|association| told(association, &|_| ()));
+    assert!(sound.iter().all(|run| run["remarks"] == Value::Array(Vec::new())), "{:?}", sound[1]["remarks"]);
+    // A row that is there twice is one measurement, for who reads bar codes and for who does not.
+    let twice = |rows: &mut Rows| rows.1 = rows.1.iter().flat_map(|row| [*row; 2]).collect();
+    assert_eq!(["known", "unknown"].map(|association| told(association, &twice)), sound);
+
+    let moving = |rows: &mut Rows, turn: f64| rows.0.iter_mut().for_each(|row| row[2] *= turn);
+    let cases: [Spoiled; 9] = [
+        ("known", "their bar code is no landmark's", &|rows| rows.1.iter_mut().for_each(|row| row[1] = 900.0)),
+        ("known", "no landmark of the map was seen for", &|rows| {
+            rows.1.retain(|row| row[0] < 100.0 || row[1] >= 200.0)
+        }),
+        ("known", "contradicts the noises", &|rows| moving(rows, -1.0)),
+        ("unknown", "bearings go up to", &|rows| rows.1.iter_mut().for_each(|row| row[3] = row[3].to_degrees())),
+        ("unknown", "rad/s: check its units", &|rows| moving(rows, 57.3)),
+        ("unknown", "odometry never moves", &|rows| rows.0.iter_mut().for_each(|row| *row = [row[0], 0.0, 0.0])),
+        ("unknown", "odometry has no row for", &|rows| rows.0.retain(|row| !(60.0..90.0).contains(&row[0]))),
+        ("unknown", "lie outside the time of both", &|rows| rows.1.iter_mut().for_each(|row| row[0] += 60.0)),
+        ("unknown", "stands still from", &|rows| {
+            rows.0.iter_mut().filter(|row| (60.0..120.0).contains(&row[0])).for_each(|row| *row = [row[0], 0.0, 0.0]);
+        }),
+    ];
+    for (association, part, spoil) in cases {
+        let remarks = told(association, spoil)["remarks"].to_string();
+        assert!(remarks.contains(part), "{part}: {remarks}");
+    }
+}
