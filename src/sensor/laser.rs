@@ -92,10 +92,14 @@ pub(crate) struct Beam {
     pub met: bool,
 }
 
-/// The range \[m\] that all but one in a thousand of the readings of these scans stay within, 0 without any: the longest one is often an
-/// error, or says something else than the laser's *nothing met*.
+/// No laser of a robot measures as far \[m\]: a longer reading is an error, or a word for *nothing met* besides the laser's own.
+const FARTHEST_READING: f32 = 1e3;
+
+/// The range \[m\] that all but one in a thousand of the readings below a kilometre stay within, 0 without any: the longest ones are often
+/// errors, or say something else than the laser's *nothing met*, and must not change what that is.
 pub fn longest_reading(scans: &[LaserScan]) -> f64 {
-    let readings = || scans.iter().flat_map(|scan| &scan.ranges).filter(|range| range.is_finite() && **range > 0.0);
+    let is_range = |range: &&f32| **range > 0.0 && **range < FARTHEST_READING;
+    let readings = || scans.iter().flat_map(|scan| &scan.ranges).filter(is_range);
     let most_beyond = readings().count() / 1000;
     // The smallest range that no more go beyond, by bisection: positive numbers are in the order of their bits.
     let (mut low, mut high) = (0, f32::INFINITY.to_bits());

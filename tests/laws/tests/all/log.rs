@@ -64,6 +64,17 @@ fn a_few_errors_beyond_the_longest_range_do_not_make_walls_of_it() {
     assert_eq!(log.scans[0].end_points(longest, 30.0).hits.len(), 2);
 }
 
+/// However many beams are said to have met something at a distance that no laser measures.
+#[test]
+fn readings_that_cannot_be_change_no_meaning_of_others() {
+    for absurd in ["1e30", "65535", "4e3"] {
+        let text = format!("FLASER 5 2.0 3.0 8.0 81.83 {absurd} 0 0 0 0 0 0 1 h 1\n");
+        let log = parse(text.repeat(20).as_bytes(), false).unwrap();
+        let longest = LaserMapperSettings::default().for_scans(&log.scans).no_return.unwrap();
+        assert!((79.0..80.0).contains(&longest), "{absurd}: {longest}");
+    }
+}
+
 #[test]
 fn a_half_circle_may_leave_its_last_beam_out() {
     for (count, first, step) in
