@@ -11,6 +11,7 @@ mod place;
 mod problem;
 mod relations;
 mod tum;
+mod units;
 
 #[cfg(feature = "bags")]
 pub use bag::{BagOptions, BagReader, is_bag, write_path};
@@ -21,6 +22,7 @@ pub use json::write_json_lines;
 pub use problem::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
 pub use tum::write_tum;
+pub use units::UnitChange;
 
 use fastslam::geometry::Pose2;
 use fastslam::mapper::LaserMapperSettings;
@@ -111,6 +113,8 @@ pub struct Notes {
     pub out_of_order: u32,
     /// Readings of bags and of JSON lines that are beyond the longest range that their scan declares.
     pub beyond: Beyond,
+    /// Stamps \[s\] of scans that were matched for want of odometry and fit nowhere upon those before: from each of them on the path may be wrong.
+    pub lost: Vec<f64>,
     /// What else was made of the log.
     pub remarks: Vec<Remark>,
 }

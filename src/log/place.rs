@@ -51,10 +51,11 @@ fn stay<'a>(mut poses: impl Iterator<Item = &'a Pose2>, near: f64) -> bool {
 /// By matching scans to each other; where they say that the robot stands, odometry that says so too is right.
 fn by_scans(log: &mut LaserLog) {
     let told: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
-    match_scans(&mut log.scans);
+    log.notes.lost = match_scans(&mut log.scans);
     match log.odometry.first() {
         None => log.notes.remarks.push(Remark::NoOdometry),
         Some((_, pose)) if stay(log.scans.iter().map(|scan| &scan.odometry), STANDING) => {
+            log.notes.lost.clear();
             for (scan, told) in log.scans.iter_mut().zip(told) {
                 scan.odometry = if told.x.is_nan() { *pose } else { told };
             }

@@ -23,6 +23,9 @@ pub struct OdometryCheck {
     pub steps: u32,
     /// Share of the scans, 0 to 1, that fit upon those before.
     pub fitting: f64,
+    /// What was put right of poses before the rest was compared, as odometry explains nothing without: [`OdometryFault::Clockwise`] or
+    /// [`OdometryFault::Flipped`], if anything.
+    pub frame: Option<OdometryFault>,
     /// How far the robot drives by the scans, per metre of odometry.
     pub drives: f64,
     /// How much further to the left it drives than odometry tells \[rad\].
@@ -44,6 +47,10 @@ pub enum OdometryFault {
     Turned(f64),
     /// It drives this much further to the left \[rad\].
     Aside(f64),
+    /// Headings are told clockwise, and positions are not.
+    Clockwise,
+    /// Positions are told in a frame whose y axis is to the right of its x axis, and headings are not.
+    Flipped,
     /// Odometry does not explain how it moves.
     Unrelated {
         /// Whether nearly all scans fit upon those before, so that they tell by themselves how it moves.
@@ -89,6 +96,9 @@ const BACKWARDS: f64 = 2.9;
 /// Where the way by scans is a smaller share of that by odometry, odometry is in another unit, and not the ranges: no room measures hundreds of metres.
 const OTHER_UNIT: f64 = 0.1;
 
+/// The same with a frame that was put right: by chance, two motions do not even go together so.
+const EXPLAINED_SO: f64 = 0.75;
+
 /// Share of the scans that must fit upon those before for a map that is made by them alone.
 const FITTING: f64 = 0.9;
 
@@ -119,10 +129,13 @@ impl OdometryCheck {
 
     /// What is wrong, if anything is.
     pub fn fault(&self) -> Option<OdometryFault> {
-        let Self { drives, aside, turns, explained, fitting, .. } = *self;
+        let Self { drives, aside, turns, explained, fitting, frame, .. } = *self;
         let is_off = |factor: f64| !(1.0 / FACTOR..FACTOR).contains(&factor);
         if explained.iter().zip(UNRELATED).any(|(share, least)| *share < least) {
             return Some(OdometryFault::Unrelated { scans_fit: fitting >= FITTING });
+        }
+        if frame.is_some() {
+            return frame;
         }
         match turns.filter(|_| explained[1] > EXPLAINED) {
             Some(turns) if turns < 0.0 => return Some(OdometryFault::Mirrored),
@@ -142,7 +155,7 @@ impl OdometryFault {
         match self {
             Self::Mirrored | Self::Turned(_) => true,
             Self::Scaled(times) => *times > OTHER_UNIT,
-            Self::Aside(_) => false,
+            Self::Aside(_) | Self::Clockwise | Self::Flipped => false,
             Self::Unrelated { scans_fit } => !scans_fit,
         }
     }
@@ -150,16 +163,20 @@ impl OdometryFault {
 
 impl OdometryFault {
     /// Corrects the odometry of all scans of a log, motion by motion, so that it agrees with what they show; where it does not tell how the robot moves,
-    /// each scan is matched with those before ([`match_scans`]).
-    pub fn put_right(&self, scans: &mut [LaserScan]) {
+    /// each scan is matched with those before ([`match_scans`]). Returns the stamps \[s\] of those that do not fit there.
+    pub fn put_right(&self, scans: &mut [LaserScan]) -> Vec<f64> {
         if matches!(self, Self::Unrelated { .. }) {
             return match_scans(scans);
         }
-        let told: Vec<Pose2> = scans.iter().map(|scan| scan.odometry).collect();
+        let told: Vec<Pose2> = scans.iter().map(|scan| self.meant(&scan.odometry)).collect();
+        if let (Some(scan), Some(first)) = (scans.first_mut(), told.first()) {
+            scan.odometry = *first;
+        }
         for k in 1..told.len() {
             let motion = self.corrected(&told[k - 1].between(&told[k]));
             scans[k].odometry = scans[k - 1].odometry.compose(&motion);
         }
+        Vec::new()
     }
 
     /// The motion that was meant.
@@ -172,7 +189,16 @@ impl OdometryFault {
                 let [x, y] = Pose2::new(0.0, 0.0, angle).transform([x, y]);
                 Pose2::new(x, y, theta)
             }
-            Self::Unrelated { .. } => Pose2::new(x, y, theta),
+            Self::Clockwise | Self::Flipped | Self::Unrelated { .. } => Pose2::new(x, y, theta),
+        }
+    }
+
+    /// The pose that was meant, where it is the frame of poses that is wrong.
+    fn meant(&self, &Pose2 { x, y, theta }: &Pose2) -> Pose2 {
+        match self {
+            Self::Clockwise => Pose2::new(x, y, -theta),
+            Self::Flipped => Pose2::new(x, -y, theta),
+            _ => Pose2::new(x, y, theta),
         }
     }
 }
@@ -197,8 +223,8 @@ fn apart(scans: &[LaserScan]) -> Vec<&LaserScan> {
 struct Found {
     /// Scans that were matched.
     scans: u32,
-    /// Of those that fit, the motion by scans and the motion by odometry.
-    steps: Vec<[Pose2; 2]>,
+    /// Of those that fit, the motion by scans and the poses by odometry before it and after.
+    steps: Vec<(Pose2, [Pose2; 2])>,
 }
 
 impl Found {
@@ -210,7 +236,7 @@ impl Found {
             let ends = scan.end_points(longest, MAX_RANGE);
             let told = if k > 0 { scans[k - 1].odometry.between(&scan.odometry) } else { Pose2::default() };
             let there = places.matched(&[last.compose(&told)], &ends, None);
-            let ahead = places.searched(&fan(last.compose(&motion)), &last, &ends);
+            let ahead = places.searched(&fan(last.compose(&motion)), &last, &ends, 0.0);
             let pose = match (there, ahead) {
                 (Some(there), Some(ahead)) => {
                     let better = ahead.value > there.value + BETTER * ends.hits.len() as f64;
@@ -222,7 +248,7 @@ impl Found {
             if k > 0 && ends.hits.len() >= ENOUGH {
                 self.scans += 1;
                 if places.is_home(&pose, &ends) {
-                    self.steps.push([found, told]);
+                    self.steps.push((found, [scans[k - 1].odometry, scan.odometry]));
                 }
             }
             places.take(pose, || ends);
@@ -230,9 +256,27 @@ impl Found {
         }
     }
 
+    /// With odometry as it is told, if scans and odometry go together so; else with that which a wrong frame explains, if one does.
     fn check(&self) -> Option<OdometryCheck> {
+        let as_told = self.check_in(None)?;
+        if !matches!(as_told.fault(), Some(OdometryFault::Unrelated { .. })) {
+            return Some(as_told);
+        }
+        let explains = |check: &OdometryCheck| {
+            check.turns.is_some_and(|turns| turns > 0.0) && check.explained.iter().all(|share| *share > EXPLAINED_SO)
+        };
+        let frames = [OdometryFault::Clockwise, OdometryFault::Flipped].map(Some);
+        frames.into_iter().filter_map(|frame| self.check_in(frame)).find(explains).or(Some(as_told))
+    }
+
+    /// With this put right of the frame of odometry.
+    fn check_in(&self, frame: Option<OdometryFault>) -> Option<OdometryCheck> {
+        let steps = self.steps.iter().map(|(found, told)| {
+            let [before, after] = told.map(|pose| frame.map_or(pose, |frame| frame.meant(&pose)));
+            [*found, before.between(&after)]
+        });
         let off = |[m, o]: &[Pose2; 2]| driven(&o.between(m)).iter().sum::<f64>();
-        let steps = sorted(self.steps.clone(), |a, b| off(a).total_cmp(&off(b)));
+        let steps = sorted(steps.collect(), |a, b| off(a).total_cmp(&off(b)));
         let steps = &steps[..(KEPT * steps.len() as f64) as usize];
         let way: [f64; 2] = [0, 1].map(|k: usize| steps.iter().map(|[m, _]| driven(m)[k]).sum());
         if steps.len() < LEAST_STEPS || way[0] < LEAST_WAY {
@@ -248,6 +292,7 @@ impl Found {
         Some(OdometryCheck {
             steps: steps.len() as u32,
             fitting: self.steps.len() as f64 / f64::from(self.scans),
+            frame,
             drives: ratio(ops::hypot(re, im), oo),
             aside: ops::atan2(im, re),
             turns: tells_turns.then(|| ratio(turned, tt)),
@@ -259,17 +304,28 @@ impl Found {
     }
 }
 
+/// The unit that is this part of a metre, to 12 %.
+fn unit(metres: f64) -> Option<&'static str> {
+    const UNITS: [(f64, &str); 4] =
+        [(0.001, "millimetres"), (0.01, "centimetres"), (0.0254, "inches"), (0.3048, "feet")];
+    UNITS.into_iter().find(|(size, _)| (metres / size - 1.0).abs() < 0.12).map(|(_, name)| name)
+}
+
 impl fmt::Display for OdometryFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Mirrored => f.write_str(
                 "by the scans the robot turns to the other side than by its odometry: does the laser hang upside down, or are left and right exchanged?",
             ),
-            Self::Scaled(times) => write!(
-                f,
-                "by the scans the robot drives {} times as far as by its odometry: are both in metres, and is the laser's angle from beam to beam right?",
-                fixed(*times, if *times < 0.1 { 4 } else { 2 })
-            ),
+            Self::Scaled(times) => {
+                let times_as_far = fixed(*times, if *times < 0.1 { 4 } else { 2 });
+                write!(f, "by the scans the robot drives {times_as_far} times as far as by its odometry: ")?;
+                match (unit(*times), unit(1.0 / times)) {
+                    (Some(unit), _) => write!(f, "is odometry in {unit}, and not in metres?"),
+                    (_, Some(unit)) => write!(f, "are ranges in {unit}, and not in metres?"),
+                    _ => f.write_str("are both in metres, and is the laser's angle from beam to beam right?"),
+                }
+            }
             Self::Turned(times) => write!(
                 f,
                 "by the scans the robot turns {times:.2} times as far as by its odometry: are headings and the laser's angles in radians, and is the angle from beam to beam right?"
@@ -282,6 +338,12 @@ impl fmt::Display for OdometryFault {
                 "by the scans the robot drives {:.0}° further to the {} than by its odometry: is the laser turned on the robot by as much?",
                 angle.abs().to_degrees(),
                 if *angle > 0.0 { "left" } else { "right" }
+            ),
+            Self::Clockwise => f.write_str(
+                "headings and positions of the odometry go together only if headings are clockwise: are they those of a compass?",
+            ),
+            Self::Flipped => f.write_str(
+                "headings and positions of the odometry go together only if one axis is turned round: are x and y exchanged, or has one of them the wrong sign?",
             ),
             Self::Unrelated { .. } => f.write_str(
                 "by the scans the robot moves otherwise than by its odometry: are they of one robot, one clock and one frame, and are all angles in radians?",

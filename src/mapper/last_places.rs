@@ -81,11 +81,11 @@ impl LastPlaces {
         starts.iter().map(climb).reduce(better)
     }
 
-    /// As [`Self::matched`] without odometry: where the scan is not at home near these starts, it is searched for all round the last pose, from where the robot
-    /// turns on the spot, or drives on along an arc as far as from the last place but one to the last.
-    pub(super) fn searched(&mut self, starts: &[Pose2], last: &Pose2, ends: &Scan) -> Option<ScoredPose> {
+    /// As [`Self::matched`] without odometry: where the scan is not at home near these starts, or no more than a `sure` share of its end points are on walls, it is
+    /// searched for all round the last pose, from where the robot turns on the spot, or drives on along an arc as far as from the last place but one to the last.
+    pub(super) fn searched(&mut self, starts: &[Pose2], last: &Pose2, ends: &Scan, sure: f64) -> Option<ScoredPose> {
         let near = self.matched(starts, ends, None)?;
-        if self.is_home(&near.pose, ends) {
+        if self.is_home(&near.pose, ends) && self.agreement(&near.pose, ends).fits > sure {
             return Some(near);
         }
         let mut places = self.places.iter().rev().map(|(pose, _)| pose);

@@ -240,7 +240,7 @@ impl Odometer {
             }
         }
         let ahead = last.ahead(scan.time - last.time);
-        let best = self.places.searched(&[ahead, last.pose, *told].map(fan).concat(), &last.pose, &ends)?;
+        let best = self.places.searched(&[ahead, last.pose, *told].map(fan).concat(), &last.pose, &ends, 0.0)?;
         let (near, less) = match doubt {
             Doubt::Impossible => return Some(best.pose),
             Doubt::Still => {

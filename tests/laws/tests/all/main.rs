@@ -21,4 +21,5 @@ mod smoothing;
 mod sound;
 mod steering;
 mod turned;
+mod units;
 mod window;

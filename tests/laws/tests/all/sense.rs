@@ -178,7 +178,7 @@ fn told(scan: &LaserScan, otherwise: fn(Pose2) -> Pose2) -> LaserScan {
     LaserScan { odometry: otherwise(scan.odometry), ..scan.clone() }
 }
 
-const THROUGHOUT: [Throughout; 8] = [
+const THROUGHOUT: [Throughout; 10] = [
     (
         "odometry in centimetres",
         |k, scans| told(&scans[k], |pose| Pose2::new(100.0 * pose.x, 100.0 * pose.y, pose.theta)),
@@ -193,6 +193,16 @@ const THROUGHOUT: [Throughout; 8] = [
         "left and right exchanged in odometry",
         |k, scans| told(&scans[k], |pose| Pose2::new(pose.x, -pose.y, -pose.theta)),
         |fault| fault == OdometryFault::Mirrored,
+    ),
+    (
+        "headings clockwise",
+        |k, scans| told(&scans[k], |pose| Pose2::new(pose.x, pose.y, -pose.theta)),
+        |fault| fault == OdometryFault::Clockwise,
+    ),
+    (
+        "a y axis to the right",
+        |k, scans| told(&scans[k], |pose| Pose2::new(pose.x, -pose.y, pose.theta)),
+        |fault| fault == OdometryFault::Flipped,
     ),
     (
         "a laser that hangs upside down without being told",
@@ -288,8 +298,8 @@ fn key_scans() -> Example {
     Example::of(&Recipe { scatter: 0.3, spacing: 1.0, ..yard(1) }, usize::MAX)
 }
 
-/// A third of the Intel log, a scan a metre or half a radian: without odometry it is mapped as with it, to 0.6 m. Where scans were searched for within 0.3 rad of where the
-/// robot went on, it was lost: 4.3 m.
+/// A third of the Intel log, a scan a metre or half a radian: without odometry it is mapped as with it, to 0.4 m. Where scans were searched for within 0.3 rad of where the
+/// robot went on, it was lost, 4.3 m; and where they were searched for elsewhere only if they did not fit there, 0.5 m off.
 #[test]
 fn scans_a_metre_apart_are_matched_without_odometry() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/intel.clf");
@@ -303,7 +313,18 @@ fn scans_a_metre_apart_are_matched_without_odometry() {
     let truth: Vec<Pose2> = mapped(log, 2, 1).path().into_iter().map(|(_, pose)| pose).collect();
     let error = error(&mapped(without, 2, 1), &truth);
     println!("{error:.3} m");
-    assert!(error < 0.6, "{error} m");
+    assert!(error < 0.4, "{error} m");
+}
+
+/// Where a robot was carried to another room between two scans, nothing tells where it is; elsewhere each scan fits upon those before.
+#[test]
+fn scans_that_fit_nowhere_are_told() {
+    let Example { mut log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, SCANS);
+    assert_eq!(match_scans(&mut log.scans), [0.0; 0]);
+    log.scans.drain(60..110);
+    let time = log.scans[60].time;
+    let lost = match_scans(&mut log.scans);
+    assert_eq!(lost.first(), Some(&time), "{lost:?}");
 }
 
 /// A scan that is recorded twice comes at once, and from the same place.
