@@ -88,6 +88,10 @@ fn refusal(path: &Path, error: LogError, lenient: bool, is_known: bool) -> Usage
         _ if of_nothing && !is_known => {
             "; logs that can be read are ROS 2 bags (MCAP), ROS 1 bags, CARMEN's format, and scans as JSON lines"
         }
+        // A step that a robot can make between two scans, if it is told in millimetres.
+        LogProblem::Jump { kilometres, .. } | LogProblem::OdometryJumps { kilometres, .. } if *kilometres < 20.0 => {
+            ": is odometry in millimetres?"
+        }
         LogProblem::Truncated if !lenient => " (--lenient reads it up to there)",
         LogProblem::Message { .. } if !lenient => " (--lenient passes such messages over)",
         _ if error.line > 0 && !lenient && is_known => " (--lenient passes such lines over)",

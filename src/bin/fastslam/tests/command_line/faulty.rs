@@ -4,6 +4,7 @@ use super::{fastslam, noted, poses, shared};
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_lab::experiment::long_rings::LongRingSetup;
+use fastslam_log::LaserLog;
 use serde_json::Value;
 use tempfile::tempdir;
 
@@ -87,9 +88,10 @@ fn what_is_wrong_throughout_is_named_and_ends_with_its_exit_status() {
     let [file, path] = ["log.clf", "path.tum"].map(|name| folder.path().join(name).display().to_string());
     let Example { log, truth, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, 160);
     type Spoil = fn(&Pose2) -> Pose2;
-    let kinds: [(Spoil, u8, &str); 3] = [
+    let kinds: [(Spoil, u8, &str); 4] = [
         (Pose2::clone, 0, ""),
-        (|pose| Pose2::new(100.0 * pose.x, 100.0 * pose.y, pose.theta), 0, "the robot drives 0.0"),
+        (|pose| Pose2::new(100.0 * pose.x, 100.0 * pose.y, pose.theta), 0, "is odometry in centimetres"),
+        (|pose| Pose2::new(pose.x, pose.y, -pose.theta), 0, "only if headings are clockwise"),
         (|pose| Pose2::new(pose.x, -pose.y, -pose.theta), 3, "the robot turns to the other side"),
     ];
     for (spoil, status, said) in kinds {
@@ -109,6 +111,37 @@ fn what_is_wrong_throughout_is_named_and_ends_with_its_exit_status() {
         let error = rms(&found.iter().map(|pose| motion.compose(pose)).collect::<Vec<_>>(), &truth);
         assert!(error < 0.06, "{said}: {error} m");
     }
+}
+
+/// Ranges in millimetres from one scan on, and odometry in them.
+#[test]
+fn a_unit_that_changes_is_told_and_so_is_one_that_makes_no_odometry() {
+    let folder = tempdir().unwrap();
+    let file = folder.path().join("log.clf").display().to_string();
+    let Example { mut log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, 40);
+    let digest = |log: &LaserLog, said: &str| {
+        std::fs::write(&file, fastslam_log::write(log)).unwrap();
+        let run = fastslam(&format!("log {file} --particles 1 --json")).success();
+        let noted = noted(&run);
+        assert!(noted.contains(said) && noted.is_empty() == said.is_empty(), "{noted}");
+        let told: Value = serde_json::from_slice(&run.get_output().stdout).unwrap();
+        told["digest"].clone()
+    };
+    // As they are written: to a centimetre, of which a thousandth is a millimetre no more.
+    for scan in &mut log.scans {
+        scan.ranges.iter_mut().for_each(|range| *range = (*range * 10.0).round() / 10.0);
+    }
+    let unspoilt = digest(&log, "");
+    for scan in &mut log.scans[20..] {
+        scan.ranges.iter_mut().for_each(|range| *range *= 1000.0);
+    }
+    assert_eq!(digest(&log, "s on they are 1000 times as long; they are brought to one unit"), unspoilt);
+    for scan in &mut log.scans {
+        scan.odometry = Pose2::new(4000.0 * scan.odometry.x, 4000.0 * scan.odometry.y, scan.odometry.theta);
+    }
+    std::fs::write(&file, fastslam_log::write(&log)).unwrap();
+    let refused = fastslam(&format!("log {file}")).code(2);
+    assert!(String::from_utf8_lossy(&refused.get_output().stderr).contains("is odometry in millimetres?"));
 }
 
 /// A laser of 2 m in a hall: by default a beam that meets nothing says nothing, and a third of the ground within a metre of the robot's way stays unknown.
