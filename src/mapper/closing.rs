@@ -114,6 +114,11 @@ impl Closings {
         self.accounts.get(slot).map_or((&[], 0.0), |account| (&account.loops, account.disputed()))
     }
 
+    /// How many end points were compared with the map of before on the path of a slot.
+    pub(super) fn seen_again(&self, slot: usize) -> f64 {
+        self.accounts.get(slot).map_or(0.0, Account::seen_again)
+    }
+
     /// The maps that are kept besides those of the particles: of before, and of paths that are being corrected.
     pub(super) fn maps(&self) -> impl Iterator<Item = &Map> {
         let of_corrections = self

@@ -66,6 +66,11 @@ impl Account {
         self.compared[1] / self.compared[0].max(1.0)
     }
 
+    /// End points of which the map of before knew something.
+    pub(super) fn seen_again(&self) -> f64 {
+        self.compared[0]
+    }
+
     /// The last metres agree with the map of before, and close this loop.
     pub(super) fn agrees(&mut self, agreement: &Agreement, closed: Option<Relation>) {
         self.compare(agreement);

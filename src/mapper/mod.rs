@@ -355,6 +355,12 @@ impl LaserMapper {
         self.closings.of(self.filter.best()).1
     }
 
+    /// How many end points of places that the best particle came back to were compared with its map of before: those of which
+    /// [`Self::disputed_fraction`] is a share.
+    pub fn seen_again(&self) -> u32 {
+        self.closings.seen_again(self.filter.best()) as u32
+    }
+
     /// The stamp of the scan \[s\] that the filter took in a step, and where the best particle has the robot then; `None` of a step that was not.
     pub fn at_step(&self, step: usize) -> Option<(f64, Pose2)> {
         let stamp = self.stamps.iter().find(|stamp| stamp.step as usize == step)?;

@@ -98,6 +98,9 @@ const LOOK_EVERY: u32 = 200;
 /// A map is not to be trusted where it contradicts more than this share of what is seen again: three recorded logs have 0.01 to 0.13 with one particle.
 const DISPUTED: f64 = 0.25;
 
+/// End points of places seen again below which their share says little: one look back at the last metres compares as many.
+const SEEN_AGAIN: u32 = 400;
+
 /// Runs the command.
 pub fn run(arguments: &Arguments) -> Result<()> {
     let name = named(&arguments.files);
@@ -249,7 +252,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let of_blind =
         (blind > scans / 3).then(|| "the map is one of a part of the way, as many scans have no range".into());
     let disputed = mapper.disputed_fraction();
-    let of_disputed = (disputed > DISPUTED).then(|| {
+    let of_disputed = (disputed > DISPUTED && mapper.seen_again() >= SEEN_AGAIN).then(|| {
         format!("of what is seen again, {:.0} % contradicts the map of before: the path may be wrong", 100.0 * disputed)
     });
     let of_lost = log.notes.lost.first().map(|first| {

@@ -27,7 +27,8 @@ fn log(times: impl Fn(usize) -> f64) -> LaserLog {
 
 #[test]
 fn ranges_are_brought_to_the_longest_of_their_units() {
-    let kinds: [(fn(usize) -> f64, &[UnitChange]); 5] = [
+    type Unit = fn(usize) -> f64;
+    let kinds: [(Unit, &[UnitChange]); 5] = [
         (|_| 1.0, &[]),
         (|k| if k < 20 { 1.0 } else { 1000.0 }, &[UnitChange { time: 20.0, times: 1000.0 }]),
         (|k| if k < 20 { 100.0 } else { 1.0 }, &[UnitChange { time: 20.0, times: 0.01 }]),
