@@ -63,8 +63,7 @@ impl Drive<'_> {
     }
 
     fn unmoved(&self) -> Option<String> {
-        let moves = self.odometry.iter().any(|row| row[1] != 0.0 || row[2] != 0.0);
-        (!moves).then(|| {
+        self.odometry.iter().all(rests).then(|| {
             "odometry never moves: it says nothing of the motion, and the noises told of it do not hold".into()
         })
     }
@@ -72,13 +71,11 @@ impl Drive<'_> {
     fn gap(&self) -> Option<String> {
         let [start, end] = self.used;
         let held = |pair: &[[f64; 3]]| {
-            let [time, speed, turn_rate] = pair[0];
-            let until = pair[1][0].min(end);
-            (until - time.max(start), time, speed, turn_rate)
+            let [[time, ..], [next, ..]] = [pair[0], pair[1]];
+            (next.min(end) - time.max(start), time)
         };
-        let moving =
-            self.odometry.windows(2).map(held).filter(|(_, _, speed, turn_rate)| *speed != 0.0 || *turn_rate != 0.0);
-        let (longest, time, ..) = moving.max_by(|a, b| a.0.total_cmp(&b.0))?;
+        let moving = self.odometry.windows(2).filter(|pair| !rests(&pair[0]));
+        let (longest, time) = moving.map(held).max_by(|a, b| a.0.total_cmp(&b.0))?;
         (longest > LONGEST_ROW).then(|| {
             format!("odometry has no row for {longest:.0} s after {time} s: its last velocity is held as long, and the path may break there")
         })
@@ -86,9 +83,9 @@ impl Drive<'_> {
 
     /// The longest rest by odometry in which a landmark moves in view.
     fn stuck(&self) -> Option<String> {
-        let rests = self.odometry.chunk_by(|a, b| (a[1] == 0.0 && a[2] == 0.0) == (b[1] == 0.0 && b[2] == 0.0));
-        let rests = rests.filter(|rows| rows[0][1] == 0.0 && rows[0][2] == 0.0 && rows.len() < self.odometry.len());
-        let times = rests.map(|rows| [rows[0][0], rows[rows.len() - 1][0]]);
+        let stretches = self.odometry.chunk_by(|a, b| rests(a) == rests(b));
+        let still = stretches.filter(|rows| rests(&rows[0]) && rows.len() < self.odometry.len());
+        let times = still.map(|rows| [rows[0][0], rows[rows.len() - 1][0]]);
         let [from, to] =
             times.filter(|rest| self.moves_in_view(*rest)).max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
         Some(format!(
@@ -108,6 +105,11 @@ impl Drive<'_> {
             off.x.abs() > APART * self.sensor.range_std || off.y.abs() > APART * self.sensor.bearing_std
         })
     }
+}
+
+/// Whether the robot stands still by a row of odometry.
+fn rests(&[_, speed, turn_rate]: &[f64; 3]) -> bool {
+    speed == 0.0 && turn_rate == 0.0
 }
 
 #[cfg(test)]
