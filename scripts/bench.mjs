@@ -2,11 +2,10 @@
 // with the targets they are held to. `-- --quick` shows that all of it runs, and measures little.
 import { existsSync, readdirSync, readFileSync } from 'node:fs'
 import { basename, join } from 'node:path'
-import { launchChromium } from './browser.mjs'
+import { withSite } from './browser.mjs'
 import { build, dist } from './build.mjs'
 import { latencies } from './latency.mjs'
 import { bold, cache, capture, green, isMain, main, red, root, run, say, step, StepError } from './lib.mjs'
-import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
 
 /** The criterion benchmark of one whole lap of 16 universes on one thread, which is what WebAssembly runs. */
@@ -35,19 +34,14 @@ function criterionTimes(folder) {
  * @returns {Promise<R[]>}
  */
 async function browserTimes(folder, work, ...options) {
-  const server = await startServer({ folder })
-  const browser = await launchChromium()
-  try {
+  return withSite({ folder }, async ({ server, browser }) => {
     const page = await browser.newPage()
     await page.route('**/bench', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>bench</title>' }))
     await page.goto(`${server.url}bench`)
     const times = []
     for (const option of options) times.push(await page.evaluate(/** @type {any} */ (work), option))
     return times
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
 }
 
 /** Runs in the page. Whole laps are timed, as Chromium's clock is coarser than a step. @param {{ laps: number, width: number, height: number }} size */
@@ -138,9 +132,7 @@ async function timeLandmarks({ known }) {
  * by itself on the way from top to end, and the longest the page does not answer.
  */
 async function timePage() {
-  const server = await startServer({ folder: dist })
-  const browser = await launchChromium()
-  try {
+  return withSite({ folder: dist }, async ({ server, browser }) => {
     // The first visit is for the server, which compresses each file once; the second goes to the figure at once.
     let alive = NaN
     for (let visit = 0; visit < 2; visit++) {
@@ -170,10 +162,7 @@ async function timePage() {
     }
     const seen = await reader.evaluate(() => /** @type {any} */ (window).seen)
     return { paint, alive, .../** @type {{ shift: number, longest: number }} */ (seen) }
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
 }
 
 /** Runs in the page: a log through the program that maps logs, and nothing of it drawn [ms]. @param {{ file: string, universes: number }} options `file` in base 64 */
@@ -205,9 +194,7 @@ async function timeLog(log) {
     (await run('cargo', ['run', '--quiet', '--release', '--bin', 'fastslam', '--', 'log', log, '--particles', `${universes}`, '--threads', '1', '--json'])).answer,
   )
   const [alone = NaN] = await browserTimes(join(root, 'widgets', 'pkg'), timeFilter, { file: readFileSync(log).toString('base64'), universes })
-  const server = await startServer({ folder: dist })
-  const browser = await launchChromium()
-  try {
+  return withSite({ folder: dist }, async ({ server, browser }) => {
     const page = await browser.newPage({ viewport: { width, height } })
     await page.goto(`${server.url}embed-log.html`)
     await page.locator('input[type=file]').setInputFiles(log)
@@ -237,10 +224,7 @@ async function timeLog(log) {
       median: late[late.length >> 1],
       worst: late[late.length - 1],
     }
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
 }
 
 /** What the tree of all paths holds, by way of resampling: t + 1 + c M ln M nodes. */

@@ -54,10 +54,10 @@ async function figuresAt(address) {
         : `<iframe src="${address}embed.html?figure=proposal&amp;v=3" width="900" height="700" sandbox="allow-scripts"></iframe>`
     response.writeHead(200, { 'Content-Type': 'text/html' }).end(`<!doctype html><html lang="en"><title>Course</title><link rel="icon" href="data:,">${body}</html>`)
   })
-  await new Promise(done => host.listen(0, '127.0.0.1', () => done(undefined)))
-  const other = `http://127.0.0.1:${/** @type {import('node:net').AddressInfo} */ (host.address()).port}`
   const browser = await launchChromium()
   try {
+    await new Promise(done => host.listen(0, '127.0.0.1', () => done(undefined)))
+    const other = `http://127.0.0.1:${/** @type {import('node:net').AddressInfo} */ (host.address()).port}`
     const findings = []
     for (const [what, page] of [['a page of its own', `${address}embed-proposal.html`], ['an element on another origin', `${other}/element`], ['a sandboxed frame on another origin', `${other}/frame`]]) {
       const tab = await browser.newPage()

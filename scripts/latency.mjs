@@ -2,10 +2,9 @@
 // not yet of all repeats), until all is computed that belongs to it, and back at the value before. Each event sets a value that was not there
 // yet. Part of `npm run bench`; by itself, of the pages as they were built last: node scripts/latency.mjs
 import { join } from 'node:path'
-import { launchChromium } from './browser.mjs'
+import { withSite } from './browser.mjs'
 import { dist } from './build.mjs'
 import { isMain, main, root, say } from './lib.mjs'
-import { startServer } from './serve.mjs'
 
 /** @typedef {{ what: string, tag: string, attributes: Record<string, string>, slider: string, from: number, by: number, atMost: number, file?: string }} Drag */
 
@@ -90,9 +89,7 @@ async function timeDrag({ slider, from, by, events }) {
 
 /** The medians, the worst, and the way back of each [ms]. */
 export async function latencies() {
-  const server = await startServer({ folder: dist })
-  const browser = await launchChromium()
-  try {
+  return withSite({ folder: dist }, async ({ server, browser }) => {
     const page = await browser.newPage({ viewport: { width: WIDTH, height: HEIGHT } })
     await page.route('**/bench', route => route.fulfill({ contentType: 'text/html', body: '<!doctype html><title>bench</title>' }))
     const found = []
@@ -105,10 +102,7 @@ export async function latencies() {
       found.push({ what: drag.what, atMost: drag.atMost, first: median(first), median: median(settled), worst: Math.max(...settled), back, longest })
     }
     return found
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
 }
 
 if (isMain(import.meta)) {

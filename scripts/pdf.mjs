@@ -3,11 +3,10 @@
 import { existsSync, readdirSync, readFileSync, statSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { asAddress, askForSite, site, wholeLinks } from './address.mjs'
-import { launchChromium } from './browser.mjs'
+import { withSite } from './browser.mjs'
 import { build, dist } from './build.mjs'
 import { fillFolds } from './folds.mjs'
 import { isMain, kilobytes, main, root, step, StepError } from './lib.mjs'
-import { startServer } from './serve.mjs'
 import { setUp } from './setup.mjs'
 
 /**
@@ -45,10 +44,8 @@ const author = () => /^ *- name: "(.*)"$/m.exec(readFileSync(join(root, 'CITATIO
 
 /** @param {string} address of the live chapter, or empty @param {string} [folder] */
 export async function makePdf(address, folder = dist) {
-  const server = await startServer({ folder })
-  const browser = await launchChromium()
   const path = join(folder, 'chapter.pdf')
-  try {
+  return withSite({ folder }, async ({ server, browser }) => {
     // Without script nothing moves, and each figure is its golden picture.
     const page = await browser.newPage({ javaScriptEnabled: false })
     await page.route(server.url, async route => {
@@ -57,10 +54,7 @@ export async function makePdf(address, folder = dist) {
     })
     await page.goto(server.url, { waitUntil: 'networkidle' })
     writeFileSync(path, withAuthor(await page.pdf({ preferCSSPageSize: true, printBackground: true, outline: true, tagged: true }), author()))
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
   return `${path}, ${kilobytes(statSync(path).size)}`
 }
 
@@ -73,10 +67,8 @@ const runs = file => /^(worksheet-.*|deck)\.html$/.test(file)
  */
 export async function makeSheets(address, folder = dist, isWanted = runs, target = folder) {
   const files = readdirSync(folder).filter(isWanted)
-  const server = await startServer({ folder })
-  const browser = await launchChromium()
-  const home = address || server.url
-  try {
+  await withSite({ folder }, async ({ server, browser }) => {
+    const home = address || server.url
     const page = await browser.newPage({ viewport: { width: 1366, height: 768 } })
     await page.route(`${home}**`, async route => {
       const response = await route.fetch({ url: server.url + route.request().url().slice(home.length) })
@@ -99,10 +91,7 @@ export async function makeSheets(address, folder = dist, isWanted = runs, target
       const pdf = await page.pdf({ preferCSSPageSize: true, printBackground: true, tagged: true })
       writeFileSync(join(target, file.replace(/html$/, 'pdf')), withAuthor(pdf, author()))
     }
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
   return `${files.length} files`
 }
 

@@ -4,9 +4,8 @@ import { readdirSync } from 'node:fs'
 import { build, dist, singlesAsked } from './build.mjs'
 import { isMain, kilobytes, main, say, step, StepError } from './lib.mjs'
 import { singlePrograms } from './registry.mjs'
-import { startServer } from './serve.mjs'
 import { judge, judgeAll } from './sizes.mjs'
-import { launchChromium } from './browser.mjs'
+import { withSite } from './browser.mjs'
 
 /** What each figure's page for frames loads, nothing cached. */
 export const checkEmbedSizes = () => serving(embedSizes)
@@ -63,10 +62,8 @@ async function serving(measure) {
   /** @type {Served[]} */
   const answers = []
   const take = () => answers.splice(0)
-  const server = await startServer({ folder: dist, onServed: served => answers.push(served) })
   const programs = readdirSync(dist).filter(file => file.endsWith('.wasm'))
-  const browser = await launchChromium()
-  try {
+  return withSite({ folder: dist, onServed: served => answers.push(served) }, async ({ server, browser }) => {
     await Promise.all(programs.map(async file => (await fetch(server.url + file, { headers: { 'Accept-Encoding': 'br' } })).arrayBuffer()))
     return await measure(async (path, ask) => {
       take()
@@ -91,10 +88,7 @@ async function serving(measure) {
         await page.close()
       }
     })
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
 }
 
 /** Waits: until what has come into sight by now has been asked for and answered, or until no request has been open for a while. @param {import('@playwright/test').Page} page */

@@ -3,10 +3,9 @@
 // every second into .cache/visit, and sheets of thirty of them to be looked at. It says what moved while too little of it was in sight.
 import { mkdirSync, rmSync, writeFileSync } from 'node:fs'
 import { join } from 'node:path'
-import { launchChromium } from './browser.mjs'
+import { launchChromium, withSite } from './browser.mjs'
 import { dist } from './build.mjs'
 import { cache, isMain, main, say, StepError } from './lib.mjs'
-import { startServer } from './serve.mjs'
 
 const LAPTOP = { width: 1366, height: 650 }
 const WORDS = 4 // read in a second
@@ -43,9 +42,7 @@ function look() {
 
 /** Takes the pictures into a folder; how many, and what was wrong. @param {string} folder */
 async function visit(folder) {
-  const server = await startServer({ folder: dist })
-  const browser = await launchChromium()
-  try {
+  return withSite({ folder: dist }, async ({ server, browser }) => {
     const page = await browser.newPage({ viewport: LAPTOP })
     await page.goto(server.url)
     const { end, pace } = await page.evaluate(measure, WORDS)
@@ -71,10 +68,7 @@ async function visit(folder) {
       }, pace)
       if (bottom >= end) return { pictures: second + 1, unseen }
     }
-  } finally {
-    await browser.close()
-    await server.close()
-  }
+  })
 }
 
 /** Sheets of small pictures. @param {string} folder @param {number} pictures */

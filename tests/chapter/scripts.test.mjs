@@ -1,5 +1,6 @@
 // What the scripts of tests conclude from what they see.
 import assert from 'node:assert/strict'
+import { spawnSync } from 'node:child_process'
 import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { test } from 'node:test'
@@ -33,6 +34,15 @@ test('what a tool answers is kept apart from what it tells on the way, and no sc
   for (const file of readdirSync(scripts, { recursive: true, encoding: 'utf8' }).filter(name => name.endsWith('.mjs'))) {
     assert.doesNotMatch(readFileSync(join(scripts, file), 'utf8'), /JSON\.parse\(\s*\(?(?:await run\([^;]*\)\)\.)?output\b/, file)
   }
+})
+
+test('a script that looks at a site without a browser to be had says so and ends, and each looks at it by the same door', () => {
+  const source = 'import { main } from "./scripts/lib.mjs"; import { withSite } from "./scripts/browser.mjs"; main(() => withSite({ folder: "www" }, async () => {}))'
+  const { status, stdout, stderr } = spawnSync(process.execPath, ['--input-type=module', '-e', source], { cwd: join(scripts, '..'), env: { ...process.env, CHROME: '/no/browser' }, encoding: 'utf8', timeout: 60_000 })
+  assert.equal(status, 1, 'it went on')
+  assert.match(stdout + stderr, /CHROME=\/no\/browser is no program/)
+  const starts = readdirSync(scripts).filter(file => file.endsWith('.mjs') && /startServer\(/.test(readFileSync(join(scripts, file), 'utf8')))
+  assert.deepEqual(starts, ['browser.mjs', 'serve.mjs', 'start.mjs'])
 })
 
 test('a size over its target is marked, and one more than 1 % above its baseline refused', async () => {
