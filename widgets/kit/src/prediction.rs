@@ -104,6 +104,23 @@ pub trait Predicts: Recipe {
     fn prediction_mut(&mut self) -> &mut Prediction;
 }
 
+/// Makes a recipe one that [`Predicts`]: its field `prediction` holds it.
+#[macro_export]
+macro_rules! predicts {
+    ($recipe:ty) => {
+        impl $crate::prediction::Predicts for $recipe {
+            fn prediction(&self) -> &$crate::prediction::Prediction {
+                &self.prediction
+            }
+
+            fn prediction_mut(&mut self) -> &mut $crate::prediction::Prediction {
+                &mut self.prediction
+            }
+        }
+    };
+}
+pub use predicts;
+
 /// What the parameters are called and what they do, in the words of the figure.
 pub struct Asks {
     /// What `predict` asks.

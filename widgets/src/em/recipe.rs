@@ -2,7 +2,7 @@
 
 use crate::{
     field,
-    prediction::{self, Asks, Prediction, Predicts},
+    prediction::{self, Asks, Prediction, predicts},
     recipe::{self, Param},
     words::{common, em},
 };
@@ -84,15 +84,7 @@ impl Recipe {
     }
 }
 
-impl Predicts for Recipe {
-    fn prediction(&self) -> &Prediction {
-        &self.prediction
-    }
-
-    fn prediction_mut(&mut self) -> &mut Prediction {
-        &mut self.prediction
-    }
-}
+predicts!(Recipe);
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {

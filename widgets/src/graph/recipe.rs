@@ -2,7 +2,7 @@
 
 use crate::{
     field, names,
-    prediction::{self, Asks, Prediction, Predicts},
+    prediction::{self, Asks, Prediction, predicts},
     recipe::{self, Field, Menu, Param},
     words::{common, graph},
 };
@@ -88,15 +88,7 @@ impl Recipe {
     }
 }
 
-impl Predicts for Recipe {
-    fn prediction(&self) -> &Prediction {
-        &self.prediction
-    }
-
-    fn prediction_mut(&mut self) -> &mut Prediction {
-        &mut self.prediction
-    }
-}
+predicts!(Recipe);
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {

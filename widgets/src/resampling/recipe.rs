@@ -3,7 +3,7 @@
 use super::{model::SELECTIVE, stroke};
 use crate::{
     field, names,
-    prediction::{self, Asks, Prediction, Predicts},
+    prediction::{self, Asks, Prediction, predicts},
     recipe::{self, Field, Menu, Param},
     words::{common, policy, resampling},
 };
@@ -185,12 +185,4 @@ impl recipe::Recipe for Recipe {
     }
 }
 
-impl Predicts for Recipe {
-    fn prediction(&self) -> &Prediction {
-        &self.prediction
-    }
-
-    fn prediction_mut(&mut self) -> &mut Prediction {
-        &mut self.prediction
-    }
-}
+predicts!(Recipe);

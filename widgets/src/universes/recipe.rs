@@ -4,7 +4,7 @@ use super::shipped::LAPS;
 use crate::{
     decimal::rounded,
     field,
-    prediction::{self, Asks, Prediction, Predicts},
+    prediction::{self, Asks, Prediction, predicts},
     recipe::{self, Field, Menu, Param},
     words::{common, universes},
 };
@@ -84,15 +84,7 @@ pub fn nearest(universes: f64) -> usize {
     (0..TRIED.len() - 1).rfind(past).map_or(0, |k| k + 1)
 }
 
-impl Predicts for Recipe {
-    fn prediction(&self) -> &Prediction {
-        &self.prediction
-    }
-
-    fn prediction_mut(&mut self) -> &mut Prediction {
-        &mut self.prediction
-    }
-}
+predicts!(Recipe);
 
 impl recipe::Recipe for Recipe {
     fn table() -> Vec<Param<Self>> {
