@@ -7,7 +7,7 @@ use crate::{
     model::{Declared, FigureError},
     panels::Panels,
     query,
-    view::View,
+    view::{Layout, View},
 };
 use core::ops::Range;
 
@@ -43,7 +43,7 @@ impl Entry {
     #[allow(dead_code)] // the program that reads bags has no figure
     const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
         let height = |width| V::height(width, &Panels::default());
-        let (title, panels, make) = (<V::Model as Declared>::TITLE, V::PANELS, Figure::of::<V>);
+        let (title, panels, make) = (<V::Model as Declared>::TITLE, V::Layout::PANELS, Figure::of::<V>);
         Self { tag, title, program, count, panels, height, make }
     }
 }

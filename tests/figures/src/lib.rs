@@ -11,6 +11,7 @@ use fastslam_widgets::{
     paint::{Canvas, Theme},
     registry,
     scene::{Mark, Role},
+    view::Layout as _,
 };
 use std::collections::BTreeMap;
 

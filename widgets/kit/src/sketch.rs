@@ -8,6 +8,7 @@ use crate::{
     scene::{Rect, Scene, Stack},
     view::{Layout, View},
 };
+use core::marker::PhantomData;
 
 /// A recipe of which every row of the table holds one field: the struct, its defaults and the table in one. A field is written as
 /// `name: type = default, kind(…), help;`, where `kind` makes a [`crate::recipe::Param`] of what is in the brackets, of the field and of its help; further
@@ -111,13 +112,22 @@ impl<S: Sketch> Tells for S {
 
 impl<S: Sketch> Model for S {}
 
-/// Panels one below the other, each over the whole width.
-pub struct Column(Vec<(&'static str, Rect)>);
+/// The panels of a sketch one below the other, each over the whole width.
+pub struct Column<S>(Vec<(&'static str, Rect)>, PhantomData<S>);
 
 /// Between two panels \[css px\].
 const GAP: f64 = 8.0;
 
-impl Layout for Column {
+impl<S: Sketch> Layout for Column<S> {
+    const PANELS: &'static [&'static str] = S::PANELS;
+
+    fn laid_out(width: f64, panels: &Panels) -> Self {
+        let mut stack = Stack::new(0.0, width);
+        let names = if S::PANELS.is_empty() { &[""] } else { S::PANELS };
+        let places = names.iter().map(|name| (*name, stack.take(panels.has(name), S::height(name, width), GAP)));
+        Self(places.collect(), PhantomData)
+    }
+
     fn height(&self) -> f64 {
         self.0.iter().filter(|(_, area)| area.h > 0.0).map(|(_, area)| area.bottom()).fold(0.0, f64::max)
     }
@@ -125,16 +135,9 @@ impl Layout for Column {
 
 impl<S: Sketch> View for S {
     type Model = S;
-    type Layout = Column;
-    const PANELS: &'static [&'static str] = <S as Sketch>::PANELS;
+    type Layout = Column<S>;
 
-    fn layout(width: f64, panels: &Panels) -> Column {
-        let mut stack = Stack::new(0.0, width);
-        let names = if <S as Sketch>::PANELS.is_empty() { &[""] } else { <S as Sketch>::PANELS };
-        Column(names.iter().map(|name| (*name, stack.take(panels.has(name), S::height(name, width), GAP))).collect())
-    }
-
-    fn draw(&self, model: &S, Column(places): &Column, scene: &mut Scene) {
+    fn draw(&self, model: &S, Column(places, _): &Column<S>, scene: &mut Scene) {
         for (panel, area) in places.iter().filter(|(_, area)| area.h > 0.0) {
             Sketch::draw(model, panel, *area, scene);
         }

@@ -9,29 +9,19 @@ use crate::{
 
 /// The picture of a model: its layout, what is drawn, what can be clicked and what can be dragged. One without handles leaves them out.
 ///
-/// All lengths are css px of the scene, which is never narrower than [`View::NARROWEST`].
+/// All lengths are css px of the scene, which is never narrower than [`Layout::NARROWEST`].
 pub trait View: Default + 'static {
     /// What it shows.
     type Model: Declared + Model + Default + 'static;
 
-    /// Where its parts stand; a [`Rect`], if it is one piece.
+    /// Where its parts stand.
     type Layout: Layout;
-
-    /// Narrowest width that is laid out; below, the figure is made smaller as a whole.
-    const NARROWEST: f64 = 300.0;
-
-    /// Names of the parts that can be shown by themselves; none for a picture that is one piece.
-    const PANELS: &'static [&'static str] = &[];
 
     /// What is shown of the parts that were asked for: where a parameter folds some in or out, it is this. Nothing else of the state
     /// changes a layout.
     fn parts(_model: &Self::Model, asked: &Panels) -> Panels {
         asked.clone()
     }
-
-    /// Where the parts stand in a scene of this width; those that are not shown have no height. Does not depend on the state, so that
-    /// nothing below a figure ever jumps.
-    fn layout(width: f64, panels: &Panels) -> Self::Layout;
 
     /// The part of it that tells most where there is no room for the whole: without names and legends.
     fn gist(_model: &Self::Model, layout: &Self::Layout, width: f64) -> Rect {
@@ -68,34 +58,47 @@ pub trait View: Default + 'static {
 
     /// Width of the scene of a figure of this width.
     fn scene_width(width: f64) -> f64 {
-        width.max(Self::NARROWEST)
+        width.max(Self::Layout::NARROWEST)
     }
 
     /// Height that a figure of this width wants with these panels: narrower than the layout goes, it is made smaller as a whole.
     fn height(width: f64, panels: &Panels) -> f64 {
         let scene_width = Self::scene_width(width);
-        Self::layout(scene_width, panels).height() * (width / scene_width)
+        Self::Layout::of(scene_width, panels).height() * (width / scene_width)
     }
 
     /// What is to be seen of these panels at this size, or where that is less than the layout takes, at that.
     fn scene(&self, model: &Self::Model, panels: &Panels, width: f64, height: f64) -> Scene {
         let width = Self::scene_width(width);
-        let layout = Self::layout(width, panels);
+        let layout = Self::Layout::of(width, panels);
         let mut scene = Scene::new(width, height.max(layout.height()), model.describe());
         self.draw(model, &layout, &mut scene);
         scene
     }
 }
 
-/// Where the parts of a picture stand.
-pub trait Layout {
+/// Where the parts of a picture stand, and which of them are panels. Does not depend on the state, so that nothing below a figure ever jumps.
+pub trait Layout: Sized {
+    /// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
+    const NARROWEST: f64 = 300.0;
+
+    /// Names of the parts that can be shown by themselves; none for a picture that is one piece.
+    const PANELS: &'static [&'static str] = &[];
+
+    /// Where the parts of these panels stand in a scene of this width, which is no less than the narrowest; those of others have no height.
+    fn laid_out(width: f64, panels: &Panels) -> Self;
+
     /// How high they are together \[css px\].
     fn height(&self) -> f64;
-}
 
-impl Layout for Rect {
-    fn height(&self) -> f64 {
-        self.bottom()
+    /// That of these panels, for a scene of any width.
+    fn of(width: f64, panels: &Panels) -> Self {
+        Self::laid_out(if width.is_finite() { width.max(Self::NARROWEST) } else { Self::NARROWEST }, panels)
+    }
+
+    /// That of all panels, for a scene of any width.
+    fn new(width: f64) -> Self {
+        Self::of(width, &Panels::default())
     }
 }
 
@@ -149,11 +152,11 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn panels(&self) -> &'static [&'static str] {
-        V::PANELS
+        V::Layout::PANELS
     }
 
     fn show(&mut self, names: &str) -> Result<(), FigureError> {
-        self.panels = Panels::named(names, V::PANELS)?;
+        self.panels = Panels::named(names, V::Layout::PANELS)?;
         Ok(())
     }
 
@@ -167,7 +170,7 @@ impl<V: View> Shown for Shows<V> {
 
     fn gist(&self, width: f64) -> Rect {
         let scene_width = V::scene_width(width);
-        let layout = V::layout(scene_width, &self.parts());
+        let layout = V::Layout::of(scene_width, &self.parts());
         V::gist(&self.model, &layout, scene_width).scaled(width / scene_width)
     }
 
@@ -180,7 +183,7 @@ impl<V: View> Shown for Shows<V> {
     }
 
     fn drag(&mut self, handle: &str, to: Point, width: f64) {
-        let layout = V::layout(width, &self.parts());
+        let layout = V::Layout::of(width, &self.parts());
         self.view.drag(&mut self.model, &layout, handle, to);
     }
 

@@ -3,6 +3,7 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Parts, Rect, Stack, parts},
+    view,
 };
 use fastslam_lab::experiment::conditioning::SIZE;
 
@@ -16,9 +17,6 @@ pub const MARGIN: f64 = 0.5;
 
 /// From this width on \[css px\], the matrix stands beside the graph.
 pub const WIDE: f64 = 560.0;
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 const HEADER: f64 = 26.0;
 const PAD: f64 = 8.0;
@@ -62,15 +60,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[GRAPH, MATRIX];
 
-    /// Of some panels: those that are not shown have no height.
-    pub fn of(width: f64, panels: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, panels: &Panels) -> Self {
         let [graph, matrix] = [GRAPH, MATRIX].map(|name| panels.has(name));
         let [across, up] = SIZE.map(|side| side + 2.0 * MARGIN);
         let aspect = across / up;
@@ -131,16 +124,21 @@ impl Layout {
         layout.height = layout.lowest().ceil();
         layout
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::assert_laid_out;
+    use crate::view::Layout as _;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(Layout::of, &[GRAPH, MATRIX], NARROWEST, &[("all", 11), ("graph", 3), ("matrix", 5)], 1.0);
+        assert_laid_out::<Layout>(&[("all", 11), ("graph", 3), ("matrix", 5)], 1.0);
     }
 
     #[test]

@@ -2,13 +2,12 @@
 
 use super::{
     graph::{Graph, LEVELS, SIGHTING, full_width, strength},
-    layout::{GRAPH, Layout, MATRIX, NARROWEST},
+    layout::{GRAPH, Layout, MATRIX},
     matrix::matrix,
     model::ConditioningModel,
     recipe::Given,
 };
 use crate::{
-    panels::Panels,
     scene::{LINE, Letters, Point, Rect, Role, Room, Sample, Scene, closed, ellipse, legend, plain, strong},
     view::{View, whole_step},
     words::conditioning,
@@ -24,12 +23,6 @@ pub struct ConditioningView;
 impl View for ConditioningView {
     type Model = ConditioningModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[GRAPH, MATRIX];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &ConditioningModel, layout: &Layout, width: f64) -> Rect {
         if layout.graph.h > 0.0 { layout.graph } else { Rect::new(0.0, 0.0, width, layout.height) }

@@ -3,15 +3,13 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect, Stack, parts},
+    view,
 };
 
 /// Names of the panels: the corridor with both beliefs, and how they went on since the ride.
 pub const CORRIDOR: &str = "corridor";
 /// See [`CORRIDOR`].
 pub const HISTORY: &str = "history";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// From this width on \[css px\] there is room for long names.
 pub const WIDE: f64 = 560.0;
@@ -62,10 +60,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of some panels, for a figure of this width: those that are not shown have no height.
-    pub fn of(width: f64, panels: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[CORRIDOR, HISTORY];
+
+    fn laid_out(width: f64, panels: &Panels) -> Self {
         let [corridor, history] = [CORRIDOR, HISTORY].map(|name| panels.has(name));
         let wide = width >= WIDE;
         let mut column = Stack::new(0.0, width);
@@ -100,6 +98,10 @@ impl Layout {
             height: bottom,
         }
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
@@ -109,20 +111,11 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(
-            Layout::of,
-            &[CORRIDOR, HISTORY],
-            NARROWEST,
-            &[("all", 10), ("corridor", 5), ("history", 5)],
-            PAD,
-        );
+        assert_laid_out::<Layout>(&[("all", 10), ("corridor", 5), ("history", 5)], PAD);
     }
 
     #[test]
     fn all_of_it_fits_on_a_screen_with_its_controls() {
-        assert_on_screens(
-            Layout::of,
-            &[(352.0, 460.0), (588.0, 460.0), (728.0, 460.0), (804.0, 460.0), (1112.0, 460.0)],
-        );
+        assert_on_screens::<Layout>(&[(352.0, 460.0), (588.0, 460.0), (728.0, 460.0), (804.0, 460.0), (1112.0, 460.0)]);
     }
 }

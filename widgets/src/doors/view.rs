@@ -2,7 +2,7 @@
 
 use super::{
     history::History,
-    layout::{CORRIDOR, HISTORY, Layout, NARROWEST},
+    layout::{CORRIDOR, HISTORY, Layout},
     model::DoorsModel,
     recipe::{DOOR, NAMES},
     strip::Strip,
@@ -10,7 +10,6 @@ use super::{
 use crate::{
     decimal::write,
     model::Declared,
-    panels::Panels,
     scene::{Handle, Point, Scene},
     view::View,
     words::doors as words,
@@ -30,12 +29,6 @@ pub struct DoorsView;
 impl View for DoorsView {
     type Model = DoorsModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[CORRIDOR, HISTORY];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn draw(&self, model: &DoorsModel, layout: &Layout, scene: &mut Scene) {
         if layout.panels.has(CORRIDOR) {

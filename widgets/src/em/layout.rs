@@ -3,6 +3,7 @@
 use crate::{
     panels::Panels,
     scene::{Rect, Stack, parts},
+    view,
 };
 
 /// Names of the panels: one iteration of EM mapping, what its maps are worth, and the particles on the same log.
@@ -11,9 +12,6 @@ pub const PASSES: &str = "passes";
 pub const LIKELIHOOD: &str = "likelihood";
 /// See [`PASSES`].
 pub const PARTICLES: &str = "particles";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// From this width on \[css px\], all of an iteration stands in a row.
 pub const WIDE: f64 = 560.0;
@@ -85,10 +83,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of some panels, for a figure of this width: those that are not shown have no height.
-    pub fn of(width: f64, shown: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[PASSES, LIKELIHOOD, PARTICLES];
+
+    fn laid_out(width: f64, shown: &Panels) -> Self {
         let wide = width >= WIDE;
         let [passes, likelihood, particles] = [PASSES, LIKELIHOOD, PARTICLES].map(|name| shown.has(name));
         let below = likelihood || particles;
@@ -134,6 +132,10 @@ impl Layout {
         let shown = shown.clone();
         Self { shown, wide, product, scale, guess, map, times, chart, numbers, axis, cloud, cloud_scale, peaks, height }
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
@@ -143,10 +145,7 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(
-            Layout::of,
-            &[PASSES, LIKELIHOOD, PARTICLES],
-            NARROWEST,
+        assert_laid_out::<Layout>(
             &[
                 ("all", 17),
                 (PASSES, 8),
@@ -161,9 +160,6 @@ mod tests {
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        assert_on_screens(
-            Layout::of,
-            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)],
-        );
+        assert_on_screens::<Layout>(&[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)]);
     }
 }

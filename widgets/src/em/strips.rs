@@ -174,7 +174,8 @@ pub fn guess(scene: &mut Scene, model: &EmModel, layout: &Layout) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{model::Model as _, panels::Panels};
+    use crate::model::Model as _;
+    use crate::view::Layout as _;
     use fastslam_lab::experiment::em::AGAIN_BELOW;
 
     /// Why there is no lens here: what the forward pass leaves open is large enough to be seen.
@@ -192,7 +193,7 @@ mod tests {
         };
         let [old, new] = [heaviest(true), heaviest(false)];
         for width in [322.0, 692.0, 1112.0] {
-            let area = Layout::of(width, &Panels::default()).product.area;
+            let area = Layout::new(width).product.area;
             let [old, new] = [old, new].map(|cell| y(&area, CORRIDOR.place(cell)));
             assert!(old - new > 20.0, "{width}: {old} {new}");
         }

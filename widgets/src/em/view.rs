@@ -3,14 +3,13 @@
 use super::{
     chart::chart,
     cloud::cloud,
-    layout::{LIKELIHOOD, Layout, NARROWEST, PARTICLES, PASSES},
+    layout::{LIKELIHOOD, Layout, PARTICLES, PASSES},
     map::map,
     model::EmModel,
     recipe::{MARK, MARKS},
     strips,
 };
 use crate::{
-    panels::Panels,
     prediction::{GUESS, State},
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
@@ -23,12 +22,6 @@ pub struct EmView;
 impl View for EmView {
     type Model = EmModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[PASSES, LIKELIHOOD, PARTICLES];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &EmModel, layout: &Layout, width: f64) -> Rect {
         if !layout.shown.has(PASSES) {

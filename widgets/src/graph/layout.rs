@@ -3,6 +3,7 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect, parts},
+    view,
 };
 
 /// Names of the panels: the building with the graph, the universes on the same log, and the error over the iterations.
@@ -11,9 +12,6 @@ pub const GRAPH: &str = "graph";
 pub const UNIVERSES: &str = "universes";
 /// See [`GRAPH`].
 pub const ERROR: &str = "error";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// From this width on \[css px\] the others stand beside the building.
 pub const WIDE: f64 = 560.0;
@@ -63,10 +61,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of some panels, for a figure of this width: those that are not shown have no height.
-    pub fn of(width: f64, shown: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[GRAPH, UNIVERSES, ERROR];
+
+    fn laid_out(width: f64, shown: &Panels) -> Self {
         let [graph, universes, error] = [GRAPH, UNIVERSES, ERROR].map(|name| shown.has(name));
         let wide = width >= WIDE;
         let beside = wide && graph && (universes || error);
@@ -119,19 +117,21 @@ impl Layout {
             height,
         }
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::{assert_laid_out, assert_on_screens};
+    use crate::view::Layout as _;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(
-            Layout::of,
-            &[GRAPH, UNIVERSES, ERROR],
-            NARROWEST,
+        assert_laid_out::<Layout>(
             &[
                 ("all", 11),
                 (GRAPH, 3),
@@ -147,10 +147,14 @@ mod tests {
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        assert_on_screens(
-            Layout::of,
-            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (760.0, 490.0), (1112.0, 610.0)],
-        );
+        assert_on_screens::<Layout>(&[
+            (692.0, 452.0),
+            (600.0, 452.0),
+            (352.0, 452.0),
+            (322.0, 452.0),
+            (760.0, 490.0),
+            (1112.0, 610.0),
+        ]);
     }
     #[test]
     fn the_chart_is_high_enough_to_be_read() {

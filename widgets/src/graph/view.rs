@@ -3,14 +3,13 @@
 use super::{
     chart,
     city::{self, ENDS},
-    layout::{ERROR, GRAPH, Layout, NARROWEST, UNIVERSES},
+    layout::Layout,
     model::GraphModel,
     universes,
 };
 use crate::{
     decimal::between,
     model::Declared,
-    panels::Panels,
     prediction::{GUESS, State},
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
@@ -23,12 +22,6 @@ pub struct GraphView;
 impl View for GraphView {
     type Model = GraphModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[GRAPH, UNIVERSES, ERROR];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &GraphModel, layout: &Layout, width: f64) -> Rect {
         if layout.city.h > 0.0 { layout.city } else { Rect::new(0.0, 0.0, width, layout.height) }

@@ -3,15 +3,13 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect, Stack, parts},
+    view,
 };
 
 /// Names of the panels: the estimates of both filters, and N_eff over the landmarks.
 pub const MAPS: &str = "maps";
 /// See [`MAPS`].
 pub const ESS: &str = "n-eff";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// From this width of a panel on \[css px\], its numbers stand beside its view and not below it.
 const BESIDE: f64 = 260.0;
@@ -67,15 +65,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[MAPS, ESS];
 
-    /// Of some panels: those that are not shown have no height.
-    pub fn of(width: f64, shown: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, shown: &Panels) -> Self {
         let [maps, ess] = [MAPS, ESS].map(|name| shown.has(name));
         let gap = if width < 560.0 { 12.0 } else { 20.0 };
         let w = (0.5 * (width - gap)).floor();
@@ -92,6 +85,12 @@ impl Layout {
         Self { shown: shown.clone(), panels, removed, legend, chart, scale, axis, height: stack.y.ceil() }
     }
 
+    fn height(&self) -> f64 {
+        self.height
+    }
+}
+
+impl Layout {
     fn panel(shown: bool, x: f64, w: f64) -> Panel {
         let [header, line, gap] = [HEADER, LINE, 4.0].map(|h| if shown { h } else { 0.0 });
         let of = |h: f64| if shown { h } else { 0.0 };
@@ -121,14 +120,11 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(Layout::of, &[MAPS, ESS], NARROWEST, &[("all", 18), (MAPS, 14), (ESS, 4)], 1.0);
+        assert_laid_out::<Layout>(&[("all", 18), (MAPS, 14), (ESS, 4)], 1.0);
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        assert_on_screens(
-            Layout::of,
-            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)],
-        );
+        assert_on_screens::<Layout>(&[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)]);
     }
 }

@@ -3,12 +3,11 @@
 use super::{
     chart::{LANDMARKS, chart, place},
     guess::{GUESS, MIDDLE},
-    layout::{ESS, Layout, MAPS, NARROWEST},
+    layout::{ESS, Layout, MAPS},
     model::JointModel,
     panel::{Drawn, panel},
 };
 use crate::{
-    panels::Panels,
     prediction::State,
     scene::{Point, Rect, Role, Scene, strong},
     view::{View, whole_step},
@@ -26,12 +25,6 @@ const ROLES: [Role; 2] = [Role::Prior, Role::Posterior];
 impl View for JointView {
     type Model = JointModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[MAPS, ESS];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &JointModel, layout: &Layout, width: f64) -> Rect {
         if !layout.shown.has(ESS) {

@@ -4,6 +4,7 @@ use super::map::ASPECT;
 use crate::{
     panels::Panels,
     scene::{LINE, Parts, Rect, Stack, parts},
+    view,
 };
 
 /// Names of the panels: one universe large, all of them small, and N_eff over the steps.
@@ -15,9 +16,6 @@ pub const ESS: &str = "n-eff";
 
 /// From this width on \[css px\], the mosaic stands beside the large view.
 pub const WIDE: f64 = 560.0;
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// How far the ring around the chosen tile reaches beyond it \[css px\].
 pub const RING: f64 = 3.0;
@@ -50,15 +48,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[MAP, MOSAIC, ESS];
 
-    /// Of some panels: those that are not shown have no height.
-    pub fn of(width: f64, panels: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, panels: &Panels) -> Self {
         let [map, mosaic, meter] = [MAP, MOSAIC, ESS].map(|name| panels.has(name));
         // Side by side, the large view is so much larger that both columns end at the same height.
         let beside = width >= WIDE && map && mosaic;
@@ -87,19 +80,21 @@ impl Layout {
         layout.height = layout.lowest().ceil();
         layout
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::assert_laid_out;
+    use crate::view::Layout as _;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(
-            Layout::of,
-            &[MAP, MOSAIC, ESS],
-            NARROWEST,
+        assert_laid_out::<Layout>(
             &[("all", 7), (MAP, 3), (MOSAIC, 3), (ESS, 1), ("map n-eff", 4), ("map mosaic", 6)],
             1.0,
         );

@@ -113,9 +113,9 @@ pub fn names(scene: &mut Scene, model: &LapModel, area: &Rect) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::Layout as _;
     use crate::{
         model::Model as _,
-        panels::Panels,
         scene::{Mark, SHARES},
         view::{self, View as _},
     };
@@ -124,7 +124,7 @@ mod tests {
     fn what_is_told_of_universes_on_new_ground_is_seen_by_eye_or_in_a_lens() {
         let view = super::super::LapView;
         for width in [322.0, 692.0, 1112.0] {
-            let layout = Layout::of(width, &Panels::default());
+            let layout = Layout::new(width);
             let mut model = LapModel::default();
             let mut seen = Vec::new();
             for step in 0..=model.step_count() {

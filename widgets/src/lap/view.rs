@@ -2,7 +2,7 @@
 
 use super::{
     drive,
-    layout::{ESS, Layout, MAP, MOSAIC, NARROWEST},
+    layout::{ESS, Layout, MAP, MOSAIC},
     map,
     model::LapModel,
     mosaic::{mosaic, notes},
@@ -19,7 +19,7 @@ use crate::{
         Chart, FREE, LINE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined, legend, plain,
         strong,
     },
-    view::View,
+    view::{Layout as _, View},
     words::{common, lap},
 };
 use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
@@ -40,12 +40,6 @@ pub struct LapView;
 impl View for LapView {
     type Model = LapModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[MAP, MOSAIC, ESS];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &LapModel, layout: &Layout, width: f64) -> Rect {
         if layout.panels.has(MAP) { layout.large } else { Rect::new(0.0, 0.0, width, layout.height) }
@@ -87,7 +81,7 @@ impl View for LapView {
                 return model.press(key, steps);
             }
             Some(Verb::Stroke(line)) => {
-                let plane = map::plane(Self::layout(width, panels).large, model.setup().course);
+                let plane = map::plane(Layout::of(width, panels).large, model.setup().course);
                 let (points, _) = line.as_chunks();
                 let points = points.iter().map(|point: &Point| point.map(|c| c * scale));
                 let points = points.filter(|point| point.iter().all(|c| c.is_finite()));

@@ -3,6 +3,7 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect, parts},
+    view,
 };
 
 /// Names of the panels: the map with the paths, and N_eff and lineage over the scans.
@@ -12,9 +13,6 @@ pub const GAUGES: &str = "gauges";
 
 /// From this width on \[css px\], the gauges stand beside the map.
 pub const WIDE: f64 = 560.0;
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// Height where the gauges stand beside the map \[css px\], and share of the width: with what plays it on the screen of a small laptop, and
 /// on the whole of a large one. The element keeps the same free before the program is there (figure.css, `.idle`).
@@ -50,15 +48,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[MAP, GAUGES];
 
-    /// Of some panels: the others have no place.
-    pub fn of(width: f64, panels: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, panels: &Panels) -> Self {
         let wide = width >= WIDE;
         let header = Rect::new(0.0, 0.0, width, HEADER);
         let beside = wide && panels.has(MAP) && panels.has(GAUGES);
@@ -95,16 +88,21 @@ impl Layout {
         let legend = Rect::new(0.0, y, width, lines * LINE);
         Self { header, map, gauges, legend, height: legend.bottom().ceil() }
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::assert_laid_out;
+    use crate::view::Layout as _;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(Layout::of, &[MAP, GAUGES], NARROWEST, &[("all", 7), (MAP, 3), (GAUGES, 6)], 1.0);
+        assert_laid_out::<Layout>(&[("all", 7), (MAP, 3), (GAUGES, 6)], 1.0);
     }
 
     #[test]

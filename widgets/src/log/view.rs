@@ -3,7 +3,7 @@
 use super::{
     kept::Seen,
     laid::Laid,
-    layout::{GAUGES, Gauge, Layout, MAP, NARROWEST},
+    layout::{Gauge, Layout},
     map::{Frame, MapView},
     model::{BACK, LogModel, Moment},
     tree::{FADE, Tree},
@@ -19,7 +19,7 @@ use crate::{
         Cells, Chart, FREE, Letters, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, joined,
         legend, plain, strong, thinned,
     },
-    view::View,
+    view::{Layout as _, View},
     words::{common, log as words},
 };
 use fastslam::{geometry::Pose2, resampling::ResamplePolicy};
@@ -49,12 +49,6 @@ pub struct LogView {
 impl View for LogView {
     type Model = LogModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[MAP, GAUGES];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn draw(&self, model: &LogModel, layout: &Layout, scene: &mut Scene) {
         if let Some(area) = layout.map {
@@ -75,7 +69,7 @@ impl View for LogView {
         (width, scale): (f64, f64),
         panels: &Panels,
     ) -> Result<(), FigureError> {
-        let layout = Self::layout(width, panels);
+        let layout = Layout::of(width, panels);
         let finite = |point: Point| Some(point.map(|c| c * scale)).filter(|at| at.iter().all(|c| c.is_finite()));
         match Verb::of(own) {
             Some(Verb::Zoom(factor, at)) if factor.is_finite() && factor > 0.0 => {

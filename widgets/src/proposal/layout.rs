@@ -4,6 +4,7 @@ use super::recipe::WORLD;
 use crate::{
     panels::Panels,
     scene::{LINE, Plane, Rect, parts},
+    view,
 };
 use fastslam_lab::baseline::one_step::Area;
 
@@ -16,9 +17,6 @@ pub const RATIO: &str = "ratio";
 
 /// From this width on \[css px\], the ratio stands beside the world and not above it.
 pub const WIDE: f64 = 560.0;
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 const HEADER: f64 = 24.0;
 const PAD: f64 = 6.0;
@@ -64,15 +62,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[MOTION, AWARE, RATIO];
 
-    /// Of some panels: those that are not shown have no height.
-    pub fn of(width: f64, shown: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, shown: &Panels) -> Self {
         let clouds = [MOTION, AWARE].map(|name| shown.has(name));
         let (beside, any, strip) = (clouds == [true; 2], clouds != [false; 2], shown.has(RATIO));
         let gap = if width < WIDE { 12.0 } else { 20.0 };
@@ -121,6 +114,12 @@ impl Layout {
         Self { shown: shown.clone(), panels, world, ratio, axis, legend, height }
     }
 
+    fn height(&self) -> f64 {
+        self.height
+    }
+}
+
+impl Layout {
     /// The world, where the landmark is moved.
     pub fn world_plane(&self) -> Plane {
         let (Area { low, high }, area) = (WORLD, self.world[1]);
@@ -135,13 +134,11 @@ const LINES: [(f64, f64); 4] = [(1000.0, 2.0), (WIDE, 3.0), (400.0, 6.0), (0.0, 
 mod tests {
     use super::*;
     use crate::scene::{assert_laid_out, assert_on_screens};
+    use crate::view::Layout as _;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(
-            Layout::of,
-            &[MOTION, AWARE, RATIO],
-            NARROWEST,
+        assert_laid_out::<Layout>(
             &[("all", 16), (MOTION, 8), (AWARE, 8), (RATIO, 3), ("motion aware", 13), ("aware ratio", 11)],
             1.0,
         );
@@ -149,10 +146,14 @@ mod tests {
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        assert_on_screens(
-            Layout::of,
-            &[(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 610.0)],
-        );
+        assert_on_screens::<Layout>(&[
+            (692.0, 452.0),
+            (600.0, 452.0),
+            (352.0, 450.0),
+            (322.0, 450.0),
+            (760.0, 490.0),
+            (1112.0, 610.0),
+        ]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{
     gauge,
     knob::{Noise, Track},
-    layout::{AWARE, Layout, MOTION, NARROWEST, RATIO},
+    layout::{AWARE, Layout, MOTION, RATIO},
     model::ProposalModel,
     names::names,
     panel::{Drawn, panel},
@@ -14,7 +14,6 @@ use super::{
 use crate::{
     decimal::rounded,
     model::Declared,
-    panels::Panels,
     scene::{Point, Rect, Role, Scene},
     view::View,
     words::proposal,
@@ -33,12 +32,6 @@ pub struct ProposalView;
 impl View for ProposalView {
     type Model = ProposalModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[MOTION, AWARE, RATIO];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &ProposalModel, layout: &Layout, width: f64) -> Rect {
         let views = || layout.panels.iter().map(|panel| panel.view).filter(|view| view.h > 0.0);

@@ -23,9 +23,6 @@ pub const CHARTS: [&str; 4] = [ESS, LINEAGE, ERROR, TREE];
 /// From this width on \[css px\], the maps stand beside the charts.
 pub const WIDE: f64 = 560.0;
 
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 320.0;
-
 /// What stands left of the charts, for the ends of their scales and the threshold \[css px\].
 pub const SCALE: f64 = 48.0;
 
@@ -124,15 +121,11 @@ fn share(panels: &Panels) -> f64 {
     CHARTS.iter().zip(SHARES).filter(|(name, _)| panels.has(name)).map(|(_, share)| share).sum()
 }
 
-impl Layout {
-    /// Of all panels, for a figure of this width.
-    pub fn new(width: f64) -> Self {
-        Self::of(width, &Panels::default())
-    }
+impl view::Layout for Layout {
+    const NARROWEST: f64 = 320.0;
+    const PANELS: &'static [&'static str] = &[ESS, LINEAGE, ERROR, TREE, PARTICLES];
 
-    /// Of some panels: those that are not shown have no height.
-    pub fn of(width: f64, panels: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, panels: &Panels) -> Self {
         let (wide, gap) = (width >= WIDE, gap(width));
         let all = whole(width) - LINE - gap;
         let above = if wide { 0.0 } else { FREE + TAB + SHAPES[1].above + 2.0 * gap };
@@ -150,6 +143,10 @@ impl Layout {
         let legend = if panels.are_all() { Rect::new(0.0, height + gap, width, LINE) } else { NOWHERE };
         let height = if panels.are_all() { legend.bottom() } else { height };
         Self { panels: panels.clone(), wide, courses, legend, height: height.ceil() }
+    }
+
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 
@@ -266,16 +263,11 @@ impl Parts {
     }
 }
 
-impl view::Layout for Layout {
-    fn height(&self) -> f64 {
-        self.height
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::assert_apart;
+    use crate::view::Layout as _;
 
     const PANELS: [&str; 5] = [ESS, LINEAGE, ERROR, TREE, PARTICLES];
 

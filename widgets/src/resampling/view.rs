@@ -3,7 +3,7 @@
 use super::{
     charts::{Picture, error_scale},
     guess::GUESS,
-    layout::{CHARTS, ERROR, ESS, LINEAGE, Layout, NARROWEST, PARTICLES, Parts, TREE},
+    layout::{CHARTS, ESS, Layout, PARTICLES, Parts},
     model::{Moment, ResamplingModel},
     stroke,
     tree::common,
@@ -11,7 +11,6 @@ use super::{
 use crate::decimal::{fixed, rounded, write};
 use crate::{
     model::Model,
-    panels::Panels,
     prediction::State,
     robot::robot,
     scene::{Handle, Point, Rect, Role, Sample, Scene, closed, legend},
@@ -33,12 +32,6 @@ pub struct ResamplingView;
 impl View for ResamplingView {
     type Model = ResamplingModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[ESS, LINEAGE, ERROR, TREE, PARTICLES];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(model: &ResamplingModel, layout: &Layout, width: f64) -> Rect {
         let parts = parts(model, layout);

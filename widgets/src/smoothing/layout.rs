@@ -3,15 +3,13 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect, Stack, parts},
+    view,
 };
 
 /// Names of the panels: both maps, and the curves over the steps.
 pub const MAPS: &str = "maps";
 /// See [`MAPS`].
 pub const CURVES: &str = "curves";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// From this width on \[css px\] the drive lies on its side.
 const WIDE: f64 = 560.0;
@@ -48,10 +46,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of some panels: those that are not shown have no height.
-    pub fn of(width: f64, shown: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[MAPS, CURVES];
+
+    fn laid_out(width: f64, shown: &Panels) -> Self {
         let [maps, curves] = [MAPS, CURVES].map(|name| shown.has(name));
         let wide = width >= WIDE;
         let gap = if wide { 20.0 } else { 12.0 };
@@ -87,6 +85,10 @@ impl Layout {
             height: stack.y.ceil(),
         }
     }
+
+    fn height(&self) -> f64 {
+        self.height
+    }
 }
 
 #[cfg(test)]
@@ -96,14 +98,11 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(Layout::of, &[MAPS, CURVES], NARROWEST, &[("all", 13), (MAPS, 5), (CURVES, 9)], GAP);
+        assert_laid_out::<Layout>(&[("all", 13), (MAPS, 5), (CURVES, 9)], GAP);
     }
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        assert_on_screens(
-            Layout::of,
-            &[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)],
-        );
+        assert_on_screens::<Layout>(&[(692.0, 452.0), (600.0, 452.0), (352.0, 452.0), (322.0, 452.0), (1112.0, 610.0)]);
     }
 }

@@ -3,11 +3,10 @@
 use super::{
     chart::{AT, MIDDLE, charts, most, place},
     ground::{key, maps},
-    layout::{CURVES, Layout, MAPS, NARROWEST},
+    layout::{CURVES, Layout, MAPS},
     model::SmoothingModel,
 };
 use crate::{
-    panels::Panels,
     prediction::{GUESS, State},
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
@@ -21,12 +20,6 @@ pub struct SmoothingView;
 impl View for SmoothingView {
     type Model = SmoothingModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[MAPS, CURVES];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &SmoothingModel, layout: &Layout, width: f64) -> Rect {
         if !layout.shown.has(CURVES) {

@@ -3,6 +3,7 @@
 use crate::{
     panels::Panels,
     scene::{LINE, Rect, parts},
+    view,
 };
 
 /// Names of the panels: the share of laps that end well over M, what the rule makes of it, and the depletion over the range noise.
@@ -11,9 +12,6 @@ pub const SHARE: &str = "share";
 pub const RULE: &str = "rule";
 /// See [`SHARE`].
 pub const DEPLETION: &str = "depletion";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 300.0;
 
 /// Left of a chart's area: the names of its levels \[css px\].
 pub const SCALE: f64 = 40.0;
@@ -63,10 +61,10 @@ parts! {
     }
 }
 
-impl Layout {
-    /// Of some panels, for a figure of this width: those that are not shown have no height.
-    pub fn of(width: f64, shown: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+impl view::Layout for Layout {
+    const PANELS: &'static [&'static str] = &[SHARE, RULE, DEPLETION];
+
+    fn laid_out(width: f64, shown: &Panels) -> Self {
         let [share, rule, depletion] = [SHARE, RULE, DEPLETION].map(|name| shown.has(name));
         let left = if share && rule { (0.68 * width).floor() } else { width };
         let x = if share && rule { left + GAP[0] } else { 0.0 };
@@ -85,6 +83,10 @@ impl Layout {
         let depletion = Part::of(depletion, Rect::new(0.0, y, width, low), 1.0, SCALE, APART);
         let height = above.max(depletion.axis.bottom()).ceil();
         Self { share, rule, depletion, height }
+    }
+
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 
@@ -113,10 +115,7 @@ mod tests {
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {
-        assert_laid_out(
-            Layout::of,
-            &[SHARE, RULE, DEPLETION],
-            NARROWEST,
+        assert_laid_out::<Layout>(
             &[
                 ("all", 14),
                 (SHARE, 5),
@@ -132,9 +131,13 @@ mod tests {
 
     #[test]
     fn the_picture_and_its_controls_are_on_one_screen() {
-        assert_on_screens(
-            Layout::of,
-            &[(692.0, 452.0), (600.0, 452.0), (352.0, 450.0), (322.0, 450.0), (760.0, 490.0), (1112.0, 620.0)],
-        );
+        assert_on_screens::<Layout>(&[
+            (692.0, 452.0),
+            (600.0, 452.0),
+            (352.0, 450.0),
+            (322.0, 450.0),
+            (760.0, 490.0),
+            (1112.0, 620.0),
+        ]);
     }
 }

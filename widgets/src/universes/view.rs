@@ -3,14 +3,13 @@
 use super::{
     depletion::depletion,
     guess::{MIDDLE, guesses, within},
-    layout::{DEPLETION, Layout, NARROWEST, RULE, SHARE},
+    layout::Layout,
     model::UniversesModel,
     recipe::nearest,
     share::{self, cursor, rule, share},
 };
 use crate::{
     model::Declared,
-    panels::Panels,
     scene::{Point, Rect, Scene},
     view::{View, whole_step},
 };
@@ -33,12 +32,6 @@ pub struct UniversesView;
 impl View for UniversesView {
     type Model = UniversesModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[SHARE, RULE, DEPLETION];
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
-    }
 
     fn gist(_model: &UniversesModel, layout: &Layout, width: f64) -> Rect {
         let part = [&layout.share, &layout.rule, &layout.depletion].into_iter().find(|part| part.is_shown());

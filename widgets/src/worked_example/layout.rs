@@ -5,6 +5,7 @@ use super::steps::{GIVEN, Step, steps};
 use crate::{
     panels::Panels,
     scene::{LINE, Parts, Rect, parts},
+    view,
 };
 
 /// Names of the panels: the drawing, what both particles begin with, the five numbers that decide, and the whole chain of steps.
@@ -15,9 +16,6 @@ pub const START: &str = "given";
 pub const FIVE: &str = "five";
 /// See [`PLOT`].
 pub const CHAIN: &str = "steps";
-
-/// Narrowest width that is laid out \[css px\]; below, the figure is made smaller as a whole.
-pub const NARROWEST: f64 = 330.0;
 
 /// The corner of the figure is paper: the page takes its colour from there.
 const TOP: f64 = 2.0;
@@ -131,10 +129,12 @@ parts! {
     }
 }
 
-impl Layout {
+impl view::Layout for Layout {
+    const NARROWEST: f64 = 330.0;
+    const PANELS: &'static [&'static str] = &[PLOT, START, FIVE, CHAIN];
+
     /// Of some panels: the others have no places. Of all that there are, the drawing and the five rows are shown.
-    pub fn of(width: f64, panels: &Panels) -> Self {
-        let width = if width.is_finite() { width.max(NARROWEST) } else { NARROWEST };
+    fn laid_out(width: f64, panels: &Panels) -> Self {
         let labels = Labels::of(width);
         let all = !panels.are_all() && panels.has(CHAIN);
         let steps = all || panels.has(FIVE);
@@ -158,6 +158,10 @@ impl Layout {
             GIVEN.iter().zip(ends.windows(2)).map(|(_, x)| Rect::new(x[0], row.y, x[1] - x[0], TALL)).collect()
         });
         Self { labels, plot, names, given, chain, height: y.ceil() }
+    }
+
+    fn height(&self) -> f64 {
+        self.height
     }
 }
 
@@ -217,6 +221,7 @@ impl Chain {
 mod tests {
     use super::*;
     use crate::scene::assert_apart;
+    use crate::view::Layout as _;
 
     #[test]
     fn parts_lie_inside_the_figure_and_never_overlap() {

@@ -2,7 +2,7 @@
 
 use super::{
     hands::{self, ROW, THRESHOLD},
-    layout::{CHAIN, Chain, FIVE, Labels, Layout, NARROWEST, PLOT, Place, START},
+    layout::{CHAIN, Chain, FIVE, Labels, Layout, PLOT, Place, START},
     model::WorkedExampleModel,
     plot::{after, before, plot},
     steps::{self, GIVEN, Step, Writing},
@@ -12,7 +12,7 @@ use crate::{
     model::Declared,
     panels::Panels,
     scene::{Anchor, Formula, Handle, LINE, Point, Rect, Role, Sample, Scene, legend, number, plain, strong},
-    view::View,
+    view::{Layout as _, View},
     words::worked_example,
 };
 use fastslam_lab::experiment::worked_example::WorkedExample;
@@ -36,8 +36,6 @@ pub struct WorkedExampleView;
 impl View for WorkedExampleView {
     type Model = WorkedExampleModel;
     type Layout = Layout;
-    const NARROWEST: f64 = NARROWEST;
-    const PANELS: &'static [&'static str] = &[PLOT, START, FIVE, CHAIN];
 
     fn parts(model: &WorkedExampleModel, asked: &Panels) -> Panels {
         match asked {
@@ -46,14 +44,10 @@ impl View for WorkedExampleView {
             _ if !asked.has(FIVE) => asked.clone(),
             // In the place of the five.
             _ => {
-                let shown = Self::PANELS.iter().copied().filter(|panel| asked.has(panel) || *panel == CHAIN);
+                let shown = Layout::PANELS.iter().copied().filter(|panel| asked.has(panel) || *panel == CHAIN);
                 Panels::of(&shown.collect::<Vec<_>>())
             }
         }
-    }
-
-    fn layout(width: f64, panels: &Panels) -> Layout {
-        Layout::of(width, panels)
     }
 
     fn draw(&self, model: &WorkedExampleModel, layout: &Layout, scene: &mut Scene) {

@@ -123,11 +123,12 @@ fn shows(plane: &Plane, example: &WorkedExample) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::view::Layout as _;
     use crate::worked_example::layout::Layout;
     use fastslam_lab::experiment::worked_example::Inputs;
 
     fn areas() -> impl Iterator<Item = Rect> {
-        (330..1600).step_by(3).map(|width| Layout::of(f64::from(width), &Default::default()).plot.unwrap())
+        (330..1600).step_by(3).map(|width| Layout::new(f64::from(width)).plot.unwrap())
     }
 
     #[test]

@@ -6,6 +6,7 @@ use fastslam_widgets::{
     figure::Figure,
     registry,
     scene::{Mark, Role, Scene, Shading},
+    view::Layout as _,
 };
 
 /// In the state that a link of today names.

@@ -12,7 +12,7 @@ use fastslam_widgets::{
     panels::Panels,
     registry,
     scene::{Mark, Role, SHARES, Shading},
-    view::View,
+    view::{Layout as _, View},
 };
 
 fn lap(query: &str) -> Figure {
@@ -316,7 +316,7 @@ fn the_closing_of_the_loop_is_slow_and_counts_who_dies() {
 fn the_dead_fade_and_the_living_are_all_shown() {
     let mut model = LapModel::default();
     let robots = |model: &LapModel, wanted: Role| {
-        let scene = LapView.scene(model, &Panels::named("map", LapView::PANELS).unwrap(), 600.0, 0.0);
+        let scene = LapView.scene(model, &Panels::named("map", Layout::PANELS).unwrap(), 600.0, 0.0);
         let of_role = |mark: &Mark| matches!(mark, Mark::Polygons { role, .. } if *role == wanted);
         scene.marks.iter().filter(|mark| of_role(mark)).count()
     };

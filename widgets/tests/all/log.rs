@@ -7,6 +7,7 @@ use fastslam_widgets::{
     log::{Layout, Verb},
     registry,
     scene::{Mark, Rect, Role, Scene, Shading},
+    view::Layout as _,
 };
 
 const TINY: &[u8] = include_bytes!("../../../tests/figures/golden/tiny.clf");

@@ -7,7 +7,7 @@ use fastslam_widgets::{
     panels::Panels,
     proposal::{Layout, ProposalView},
     scene::{Mark, Rect, Role},
-    view::View,
+    view::{Layout as _, View},
 };
 
 const TAG: &str = "fastslam-proposal";

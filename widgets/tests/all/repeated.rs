@@ -1,7 +1,7 @@
 //! What the code of elements repeats of the figures, as it is needed before or without their programs.
 
 use fastslam_lab::experiment::universes::TRIED;
-use fastslam_widgets::{lap::Layout, universes::LAPS};
+use fastslam_widgets::{lap::Layout, universes::LAPS, view::Layout as _};
 
 /// Holds a file of `elements` to a line that has to be in it.
 fn assert_says(source: &str, line: &str) {

@@ -12,7 +12,7 @@ use fastslam_widgets::{
     registry,
     resampling::{Layout, Parts, ResamplingModel, ResamplingView},
     scene::{Mark, Point, Rect, Role, Scene, Text},
-    view::View,
+    view::{Layout as _, View},
 };
 
 fn resampling(query: &str) -> Figure {

@@ -2,6 +2,7 @@ use super::*;
 use crate::model::{Declared, Tells};
 use crate::panels::Panels;
 use crate::recipe::{Param, Recipe};
+use crate::view::Layout;
 use std::{cell::RefCell, rc::Rc};
 
 /// A point in a scene that is never narrower than 300 px. What it is told is written down.
@@ -42,15 +43,21 @@ impl Tells for OnePoint {
 
 impl Model for OnePoint {}
 
+impl Layout for Rect {
+    fn laid_out(width: f64, _: &Panels) -> Rect {
+        Rect::new(0.0, 0.0, width, 0.5 * width)
+    }
+    fn height(&self) -> f64 {
+        self.h
+    }
+}
+
 #[derive(Default)]
 struct OnePointView;
 
 impl View for OnePointView {
     type Model = OnePoint;
     type Layout = Rect;
-    fn layout(width: f64, _: &Panels) -> Rect {
-        Rect::new(0.0, 0.0, width, 0.5 * width)
-    }
     fn draw(&self, _: &OnePoint, _: &Rect, scene: &mut Scene) {
         let hover = Some(Rect::new(30.0, 60.0, 90.0, 30.0));
         let (name, title, text) = ("point", "The point".into(), "3 m east".into());

@@ -1,7 +1,7 @@
 //! What a layout is made of: every part that has a place, without a list of them by hand.
 
 use super::Rect;
-use crate::panels::Panels;
+use crate::{panels::Panels, view::Layout};
 
 /// Places of a picture: of a part, of some, or of a whole layout.
 pub trait Parts {
@@ -49,22 +49,10 @@ impl Parts for f64 {}
 impl Parts for bool {}
 impl Parts for Panels {}
 
-/// A struct of places. One that is called `Layout` is that of a figure, and ends with its `height` \[css px\].
+/// A struct of places.
 #[macro_export]
 macro_rules! parts {
-    ($(#[$doc:meta])* pub struct Layout { $($(#[$of:meta])* pub $part:ident: $type:ty,)* }) => {
-        $crate::parts!(@ $(#[$doc])* pub struct Layout { $($(#[$of])* pub $part: $type,)* });
-
-        impl $crate::view::Layout for Layout {
-            fn height(&self) -> f64 {
-                self.height
-            }
-        }
-    };
     ($(#[$doc:meta])* pub struct $name:ident { $($(#[$of:meta])* pub $part:ident: $type:ty,)* }) => {
-        $crate::parts!(@ $(#[$doc])* pub struct $name { $($(#[$of])* pub $part: $type,)* });
-    };
-    (@ $(#[$doc:meta])* pub struct $name:ident { $($(#[$of:meta])* pub $part:ident: $type:ty,)* }) => {
         $(#[$doc])*
         #[derive(Clone, PartialEq, Debug)]
         pub struct $name { $($(#[$of])* pub $part: $type,)* }
@@ -79,17 +67,11 @@ macro_rules! parts {
 
 /// That of each choice of panels, at every width from the least on, as many parts as are told lie inside of the figure and nowhere over each
 /// other, and at most this much is left free around them \[css px\].
-pub fn assert_laid_out<L: Parts + crate::view::Layout>(
-    of: fn(f64, &Panels) -> L,
-    names: &[&'static str],
-    least: f64,
-    choices: &[(&str, usize)],
-    free: f64,
-) {
+pub fn assert_laid_out<L: Parts + Layout>(choices: &[(&str, usize)], free: f64) {
     for (choice, count) in choices {
-        let panels = Panels::named(choice, names).unwrap();
-        for width in (least as u32..2000).step_by(7).map(f64::from) {
-            let layout = of(width, &panels);
+        let panels = Panels::named(choice, L::PANELS).unwrap();
+        for width in (L::NARROWEST as u32..2000).step_by(7).map(f64::from) {
+            let layout = L::of(width, &panels);
             let parts: Vec<Rect> = layout.parts().into_iter().filter(|part| part.h > 0.0).collect();
             assert_eq!(parts.len(), *count, "{choice} at {width}");
             super::assert_apart(&parts, &Rect::new(0.0, 0.0, width, layout.height()));
@@ -101,9 +83,9 @@ pub fn assert_laid_out<L: Parts + crate::view::Layout>(
 
 /// That the whole is no higher at these widths than told \[css px\]: the chapter on a laptop and in its narrowest column, a phone, a tablet,
 /// the whole of a 16:9 screen, each with the controls that belong to it.
-pub fn assert_on_screens<L: crate::view::Layout>(of: fn(f64, &Panels) -> L, screens: &[(f64, f64)]) {
+pub fn assert_on_screens<L: Layout>(screens: &[(f64, f64)]) {
     for (width, most) in screens {
-        let height = of(*width, &Panels::default()).height();
+        let height = L::new(*width).height();
         assert!(height <= *most, "{width}: {height}");
     }
 }
