@@ -13,8 +13,8 @@
 mod words;
 
 use self::words::{Words, shown};
-#[cfg(feature = "json")]
 use super::Remark;
+use super::heading::in_degrees;
 #[cfg(feature = "json")]
 use super::json::Told;
 use super::place::place;
@@ -137,8 +137,11 @@ impl LogReader {
             }
             return Err(LogError::whole(LogProblem::NoScan { but: self.other_kind() }));
         }
-        let mut log = self.reader.log;
+        let Reader { mut log, told, places_laser, .. } = self.reader;
         log.seen_something()?;
+        if !places_laser {
+            in_radians(&mut log, &told);
+        }
         log.in_order();
         place(&mut log)?;
         Ok(log)
@@ -208,6 +211,32 @@ struct Reader {
     max_range: Option<f64>,
     /// Beams of the first FLASER.
     beams: Option<usize>,
+    /// Each pose of the odometry as it is told, before its heading is wrapped.
+    told: Vec<[f64; 3]>,
+    /// Whether there is a ROBOTLASER1, of which both headings, of robot and laser, would have to be read anew: its headings stay radians.
+    places_laser: bool,
+}
+
+/// Reads the headings of a log as degrees, if that is what they are.
+fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
+    if !in_degrees(told) {
+        return;
+    }
+    let heading = |degrees: f64| ops::wrap_angle(degrees * PI / 180.0);
+    let mut poses = log.odometry.iter_mut().zip(told);
+    // Each scan that is told with a pose comes in the order of these poses.
+    for scan in log.scans.iter_mut().filter(|scan| !scan.odometry.x.is_nan()) {
+        for ((time, pose), [_, _, degrees]) in poses.by_ref() {
+            let is_of_scan = *time == scan.time && *pose == scan.odometry;
+            pose.theta = heading(*degrees);
+            if is_of_scan {
+                scan.odometry = *pose;
+                break;
+            }
+        }
+    }
+    poses.for_each(|((_, pose), [_, _, degrees])| pose.theta = heading(*degrees));
+    log.notes.remarks.push(Remark::HeadingsInDegrees);
 }
 
 impl Reader {
@@ -225,19 +254,19 @@ impl Reader {
             "ROBOTLASER1" => self.robot_laser(of(ROBOT))?,
             "ODOM" => {
                 let mut words = of("ODOM");
-                let pose = words.pose("x, y, theta")?;
+                let (pose, told) = words.pose("x, y, theta")?;
                 for name in ["tv", "rv", "accel"] {
                     words.number(name)?;
                 }
                 let time = words.time()?;
-                self.log.odometry.push((time, pose));
+                self.odometry(time, pose, told);
             }
             "PARAM" => self.parameter(of("PARAM"))?,
             #[cfg(feature = "json")]
             _ if kind.starts_with('{') => match super::json::read(text)? {
-                Told::Scan(scan) => {
+                Told::Scan(scan, told) => {
                     if !scan.odometry.x.is_nan() {
-                        self.log.odometry.push((scan.time, scan.odometry));
+                        self.odometry(scan.time, scan.odometry, told);
                     }
                     self.log.notes.beyond.add(&scan.ranges, scan.max_range);
                     self.log.scans.push(scan);
@@ -277,14 +306,15 @@ impl Reader {
         if x.abs().max(y.abs()) > LaserScan::FARTHEST || (sin == 0.0 && cos == 0.0) {
             return Err(LogProblem::NoPose);
         }
-        self.log.odometry.push((time, Pose2::new(x, y, 2.0 * ops::atan2(sin, cos))));
+        let theta = 2.0 * ops::atan2(sin, cos);
+        self.odometry(time, Pose2::new(x, y, theta), [x, y, theta]);
         Ok(())
     }
 
     fn front_laser(&mut self, mut words: Words<'_>) -> Result<(), LogProblem> {
         let ranges = words.ranges()?;
         words.pose("x, y, theta")?;
-        let odometry = words.pose("odom_x, odom_y, odom_theta")?;
+        let (odometry, told) = words.pose("odom_x, odom_y, odom_theta")?;
         let time = words.time()?;
         let (first_angle, angle_step) = fan(ranges.len());
         let scan = LaserScan {
@@ -296,7 +326,7 @@ impl Reader {
             max_range: self.max_range,
             ranges,
         };
-        self.take(scan, words.kind)
+        self.take(scan, told, words.kind)
     }
 
     fn robot_laser(&mut self, mut words: Words<'_>) -> Result<(), LogProblem> {
@@ -315,8 +345,9 @@ impl Reader {
         for _ in 0..remissions {
             words.word(Field::Remission)?;
         }
-        let laser = words.pose("laser_x, laser_y, laser_theta")?;
-        let odometry = words.pose("robot_x, robot_y, robot_theta")?;
+        let (laser, _) = words.pose("laser_x, laser_y, laser_theta")?;
+        let (odometry, told) = words.pose("robot_x, robot_y, robot_theta")?;
+        self.places_laser = true;
         for name in ["tv", "rv", "forward_safety_dist", "side_safety_dist", "turn_axis"] {
             words.number(name)?;
         }
@@ -332,11 +363,17 @@ impl Reader {
             max_range: Some(max_range).filter(|range| *range > 0.0),
             ranges,
         };
-        self.take(scan, words.kind)
+        self.take(scan, told, words.kind)
+    }
+
+    /// Takes a pose of the odometry, and what is told of it.
+    fn odometry(&mut self, time: f64, pose: Pose2, told: [f64; 3]) {
+        self.log.odometry.push((time, pose));
+        self.told.push(told);
     }
 
     /// Takes a scan that goes with those before it.
-    fn take(&mut self, scan: LaserScan, message: &'static str) -> Result<(), LogProblem> {
+    fn take(&mut self, scan: LaserScan, told: [f64; 3], message: &'static str) -> Result<(), LogProblem> {
         let count = scan.ranges.len();
         if count == 0 {
             return Err(LogProblem::NoRanges { message });
@@ -352,7 +389,7 @@ impl Reader {
                 return Err(LogProblem::Jump { message, kilometres: 1e-3 * jump });
             }
         }
-        self.log.odometry.push((scan.time, scan.odometry));
+        self.odometry(scan.time, scan.odometry, told);
         self.log.scans.push(scan);
         Ok(())
     }

@@ -42,7 +42,8 @@ pub(super) struct Line {
 
 /// What a line tells.
 pub(super) enum Told {
-    Scan(LaserScan),
+    /// With its odometry as it is told.
+    Scan(LaserScan, [f64; 3]),
     Remark(String),
     /// So many messages could not be read where the lines come from, and why the first of them could not.
     Malformed(u32, String),
@@ -82,7 +83,10 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     if scan.validate().is_err() {
         return Err(LogProblem::JsonFar);
     }
-    Ok(Told::Scan(if line.odometry.is_some() { scan } else { LaserScan { odometry: NOWHERE, ..scan } }))
+    Ok(match line.odometry {
+        Some(told) => Told::Scan(scan, told),
+        None => Told::Scan(LaserScan { odometry: NOWHERE, ..scan }, [0.0; 3]),
+    })
 }
 
 /// What is wrong with a line of Python's.

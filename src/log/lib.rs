@@ -5,6 +5,7 @@ mod bag;
 mod carmen;
 mod clock;
 mod extent;
+mod heading;
 #[cfg(feature = "json")]
 mod json;
 mod place;

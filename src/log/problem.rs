@@ -339,6 +339,8 @@ pub enum Remark {
     NoOdometry,
     /// Its odometry never moves.
     StillOdometry,
+    /// Its headings are in degrees.
+    HeadingsInDegrees,
     /// The clock was set back.
     ClockSetBack {
         /// By how much \[s\].
@@ -365,6 +367,9 @@ impl fmt::Display for Remark {
             Self::NoOdometry => f.write_str("there is no odometry: each scan is matched with those before"),
             Self::StillOdometry => f.write_str(
                 "the odometry never moves: it is taken for none, and each scan is matched with those before",
+            ),
+            Self::HeadingsInDegrees => f.write_str(
+                "odometry and its headings go together only if headings are in degrees, and not in radians: they are read as degrees",
             ),
             Self::ClockSetBack { seconds, time } => write!(
                 f,

@@ -71,6 +71,7 @@ pub fn remark(remark: &Remark) -> String {
     match remark {
         Remark::NoOdometry => words::no_odometry().into(),
         Remark::StillOdometry => words::still_odometry().into(),
+        Remark::HeadingsInDegrees => words::headings_in_degrees().into(),
         Remark::ClockSetBack { seconds, time } => {
             words::ClockSetBack { seconds: &tenths(*seconds), time: &milliseconds(*time) }.say()
         }

@@ -57,12 +57,13 @@ impl<'a> Words<'a> {
         Ok(ranges)
     }
 
-    pub fn pose(&mut self, names: &'static str) -> Result<Pose2, LogProblem> {
+    /// A pose, and the same with its heading as it is told.
+    pub fn pose(&mut self, names: &'static str) -> Result<(Pose2, [f64; 3]), LogProblem> {
         let found @ [x, y, theta] = [self.number(names)?, self.number(names)?, self.number(names)?];
         if x.abs().max(y.abs()) > LaserScan::FARTHEST || theta.abs() > LaserScan::FARTHEST {
             return Err(LogProblem::Far { message: self.kind, names, found });
         }
-        Ok(Pose2::new(x, y, theta))
+        Ok((Pose2::new(x, y, theta), found))
     }
 
     /// The first stamp at the end of the line.

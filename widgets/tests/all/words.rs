@@ -245,10 +245,11 @@ fn problems() -> Vec<LogProblem> {
     fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
 }
 
-fn remarks() -> [Remark; 5] {
+fn remarks() -> [Remark; 6] {
     [
         Remark::NoOdometry,
         Remark::StillOdometry,
+        Remark::HeadingsInDegrees,
         Remark::ClockSetBack { seconds: 10.07, time: 1029.6 },
         Remark::Beyond(2),
         Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() },
