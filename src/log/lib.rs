@@ -4,6 +4,7 @@
 mod bag;
 mod carmen;
 mod clock;
+mod constant;
 mod extent;
 mod heading;
 #[cfg(feature = "json")]

@@ -15,7 +15,9 @@ use self::choices::{Choices, by_flag, listed};
 use self::outputs::Outputs;
 use self::progress::Progress;
 use self::recording::{named, read, said};
-use self::sense::{bring_to_one_unit, leave_repeated_out, put_right, say_beyond, say_blind};
+use self::sense::{
+    bring_to_one_unit, leave_constants_out, leave_repeated_out, put_right, say_beyond, say_blind,
+};
 use self::summary::{Output, loops, summary};
 use crate::{Usage, in_file, print, print_json};
 use anyhow::{Context, Result, bail};
@@ -130,6 +132,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let scans = log.scans.len();
     say_beyond(&log, &name);
     bring_to_one_unit(&mut log, &name);
+    leave_constants_out(&mut log, &name);
     let blind = say_blind(&log, &settings, &name);
     let repeated = leave_repeated_out(&mut log, &name);
     let faults = put_right(&mut log, &settings, &name);

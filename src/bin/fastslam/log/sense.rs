@@ -25,6 +25,15 @@ pub fn bring_to_one_unit(log: &mut LaserLog, name: &str) {
     );
 }
 
+/// Leaves readings out that are one number too often, and says which.
+pub fn leave_constants_out(log: &mut LaserLog, name: &str) {
+    for (range, count) in log.leave_constants_out() {
+        eprintln!(
+            "fastslam: {name}: readings of {range} m, the same to the last digit: {count}; they are no ranges, and are not used"
+        );
+    }
+}
+
 /// Takes the ranges from scans that repeat the one before while the robot drives, and says how many there were.
 pub fn leave_repeated_out(log: &mut LaserLog, name: &str) -> usize {
     let Some((count, time)) = log.leave_repeated_out() else { return 0 };
