@@ -203,6 +203,22 @@ impl OdometryFault {
     }
 }
 
+/// The unit that all ranges of a log are in, as a part of a metre and by its name, where odometry in metres and ranges in metres do not go together, and
+/// with ranges in this unit clearly do.
+pub fn unit_of_ranges(scans: &[LaserScan], settings: &LaserMapperSettings) -> Option<(f64, &'static str)> {
+    let as_told = OdometryCheck::of(scans, settings);
+    if as_told.is_some_and(|check| check.explained[0] > EXPLAINED) {
+        return None;
+    }
+    let fits = |times: f64| {
+        let mut scans = scans.to_vec();
+        scans.iter_mut().for_each(|scan| scan.ranges.iter_mut().for_each(|range| *range *= times as f32));
+        let check = OdometryCheck::of(&scans, settings).filter(OdometryCheck::is_well)?;
+        (check.fitting > FITTING && unit(check.drives * times) == unit(times)).then_some(())
+    };
+    UNITS.into_iter().find(|(size, _)| fits(*size).is_some())
+}
+
 /// The scans between which odometry moves.
 fn apart(scans: &[LaserScan]) -> Vec<&LaserScan> {
     let mut taken: Vec<&LaserScan> = Vec::new();
@@ -304,10 +320,11 @@ impl Found {
     }
 }
 
+/// Units that are told in place of metres, as parts of a metre.
+const UNITS: [(f64, &str); 4] = [(0.001, "millimetres"), (0.01, "centimetres"), (0.0254, "inches"), (0.3048, "feet")];
+
 /// The unit that is this part of a metre, to 12 %.
 fn unit(metres: f64) -> Option<&'static str> {
-    const UNITS: [(f64, &str); 4] =
-        [(0.001, "millimetres"), (0.01, "centimetres"), (0.0254, "inches"), (0.3048, "feet")];
     UNITS.into_iter().find(|(size, _)| (metres / size - 1.0).abs() < 0.12).map(|(_, name)| name)
 }
 

@@ -16,7 +16,7 @@ use self::outputs::Outputs;
 use self::progress::Progress;
 use self::recording::{named, read, said};
 use self::sense::{
-    bring_to_one_unit, leave_constants_out, leave_repeated_out, put_right, say_beyond, say_blind,
+    bring_to_one_unit, leave_constants_out, leave_repeated_out, put_right, ranges_in_metres, say_beyond, say_blind,
 };
 use self::summary::{Output, loops, summary};
 use crate::{Usage, in_file, print, print_json};
@@ -133,6 +133,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     say_beyond(&log, &name);
     bring_to_one_unit(&mut log, &name);
     leave_constants_out(&mut log, &name);
+    ranges_in_metres(&mut log, &settings, &name);
     let blind = say_blind(&log, &settings, &name);
     let repeated = leave_repeated_out(&mut log, &name);
     let faults = put_right(&mut log, &settings, &name);

@@ -1,6 +1,6 @@
 //! What is said of a log as a whole before it is mapped, and put right where it can be.
 
-use fastslam::mapper::{LaserMapperSettings, OdometryCheck, OdometryFault};
+use fastslam::mapper::{LaserMapperSettings, OdometryCheck, OdometryFault, unit_of_ranges};
 use fastslam_log::{Beyond, LaserLog, Remark, UnitChange};
 
 /// Says that many readings are beyond the longest range that is declared.
@@ -30,6 +30,22 @@ pub fn leave_constants_out(log: &mut LaserLog, name: &str) {
     for (range, count) in log.leave_constants_out() {
         eprintln!(
             "fastslam: {name}: readings of {range} m, the same to the last digit: {count}; they are no ranges, and are not used"
+        );
+    }
+}
+
+/// Brings all ranges to metres, if odometry proves that they are in another unit, and says so.
+pub fn ranges_in_metres(log: &mut LaserLog, settings: &LaserMapperSettings, name: &str) {
+    let without = |remark: &Remark| matches!(remark, Remark::NoOdometry | Remark::StillOdometry);
+    if log.notes.remarks.iter().any(without) {
+        return;
+    }
+    if let Some((metres, unit)) = unit_of_ranges(&log.scans, settings) {
+        for range in log.scans.iter_mut().flat_map(|scan| &mut scan.ranges) {
+            *range *= metres as f32;
+        }
+        eprintln!(
+            "fastslam: {name}: ranges and odometry go together only if ranges are in {unit}, and not in metres: they are read as {unit}"
         );
     }
 }

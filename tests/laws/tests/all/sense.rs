@@ -3,7 +3,9 @@
 use super::mapper::yard;
 use super::robots::mapped;
 use fastslam::geometry::Pose2;
-use fastslam::mapper::{LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed, Remark, match_scans};
+use fastslam::mapper::{
+    LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed, Remark, match_scans, unit_of_ranges,
+};
 use fastslam::sensor::LaserScan;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
@@ -252,6 +254,20 @@ fn what_is_wrong_throughout_is_named_and_put_right() {
     }
 }
 
+/// Odometry in metres proves what ranges are in.
+#[test]
+fn the_unit_of_all_ranges_is_found() {
+    let Example { log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, SCANS);
+    for (metre, unit) in
+        [(1.0, None), (1000.0, Some("millimetres")), (100.0, Some("centimetres")), (3.28084, Some("feet"))]
+    {
+        let mut scans = log.scans.clone();
+        scans.iter_mut().flat_map(|scan| &mut scan.ranges).for_each(|range| *range *= metre);
+        let found = unit_of_ranges(&scans, &LaserMapperSettings::default()).map(|(_, name)| name);
+        assert_eq!(found, unit, "{metre}");
+    }
+}
+
 /// The drive, wheels that drift by 3.4° a metre, steps of a metre and of 5 cm, a laser of which little returns, a crowd, and corridors, where scans
 /// do not tell how far the robot went.
 #[test]
@@ -276,6 +292,7 @@ fn nothing_is_wrong_throughout_with_logs_of_all_kinds() {
         let check = OdometryCheck::of(&log.scans, &LaserMapperSettings::default());
         println!("{name}: {check:.3?}");
         assert_eq!(check.and_then(|check| check.fault()), None, "{name}: {check:?}");
+        assert_eq!(unit_of_ranges(&log.scans, &LaserMapperSettings::default()), None, "{name}");
     }
 }
 
