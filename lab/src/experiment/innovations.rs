@@ -9,6 +9,7 @@ use fastslam::motion::{Displaced, Motion};
 use fastslam::nalgebra::{Matrix2, Matrix3, Vector2};
 use fastslam::particle::Particle;
 use fastslam::proposal::{Calibrated, Either, Proposal};
+use std::collections::BTreeMap;
 
 /// A proposal that knows where a particle is before anything is seen.
 pub trait Predicts<M: WithLandmarks>: Proposal<M> {
@@ -39,11 +40,32 @@ impl<D: Motion> Predicts<Calibrated<LandmarkMap>> for Learning<D> {
 /// ν = z − E ẑ and S = Q + Var ẑ are moments over all particles before the step, by their weights: of the noise of the sensor, of each particle's
 /// landmark and next pose, and of the scatter of the particles. Where the told noises are those of the robot the mean is 2, however the
 /// particles are distributed.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
+#[derive(Clone, PartialEq, Debug, Default)]
 pub struct Innovations {
+    all: Squares,
+    beyond: u32,
+    /// By name, of the landmarks that have one.
+    named: BTreeMap<u32, Squares>,
+    /// How often features of a name were taken for a landmark never seen before.
+    founded: BTreeMap<u32, u32>,
+}
+
+/// Numbers, by their sum.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+struct Squares {
     sum: f64,
     count: u32,
-    beyond: u32,
+}
+
+impl Squares {
+    fn mean(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.sum / f64::from(self.count))
+    }
+
+    fn add(&mut self, squared: f64) {
+        self.sum += squared;
+        self.count += 1;
+    }
 }
 
 /// χ²₂,₀.₉₉: one innovation in a hundred is larger.
@@ -67,17 +89,29 @@ pub fn agreeing(count: u32) -> [f64; 2] {
 impl Innovations {
     /// How many features were of a mapped landmark.
     pub fn count(&self) -> u32 {
-        self.count
+        self.all.count
     }
 
     /// Their mean νᵀ S⁻¹ ν; 2 is expected. `None` where there were none.
     pub fn mean(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.sum / f64::from(self.count))
+        self.all.mean()
+    }
+
+    /// How many landmarks have a name and were seen again, and how many of them have a mean of their own that is more than twice the most that is taken to
+    /// agree with the told noises: few innovations of few particles are larger together than as many independent ones.
+    pub fn contradicting(&self) -> [u32; 2] {
+        let contradicts = |of: &&Squares| of.mean().is_some_and(|mean| mean > 2.0 * agreeing(of.count)[1]);
+        [self.named.len() as u32, self.named.values().filter(contradicts).count() as u32]
+    }
+
+    /// How often features of each name were taken for a landmark never seen before, by the best particles.
+    pub fn founded(&self) -> &BTreeMap<u32, u32> {
+        &self.founded
     }
 
     /// The share of them that is larger than 99 % should be.
     pub fn share_beyond(&self) -> f64 {
-        f64::from(self.beyond) / f64::from(self.count.max(1))
+        f64::from(self.beyond) / f64::from(self.all.count.max(1))
     }
 
     /// [`LandmarkRun::step`], watched.
@@ -102,6 +136,8 @@ impl Innovations {
             .collect();
         let features = features.clone();
         let (told, associations) = run.advance()?;
+        // The slot of the best before resampling.
+        let slot = told.ancestors.as_ref().map_or(run.best(), |from| from[run.best()] as usize);
         for (k, feature) in features.iter().enumerate() {
             let innovations = before.iter().zip(&weights).zip(&associations).filter_map(|((slot, w), seen)| {
                 let ((map, (pose, p)), Association::Matched(index)) = (slot, M::associations(seen)[k]) else {
@@ -113,13 +149,18 @@ impl Innovations {
                 });
                 Some((*w, innovation.residual, innovation.covariance))
             });
-            self.add(&innovations.collect::<Vec<_>>());
+            self.add(&innovations.collect::<Vec<_>>(), feature.signature);
+            if let Some(name) = feature.signature
+                && matches!(M::associations(&associations[slot])[k], Association::New(_))
+            {
+                *self.founded.entry(name).or_default() += 1;
+            }
         }
         Some(told)
     }
 
-    /// Adds the innovation of which each particle of this weight has mean and covariance.
-    fn add(&mut self, particles: &[(f64, Vector2<f64>, Matrix2<f64>)]) {
+    /// Adds the innovation of a landmark of this name, of which each particle of this weight has mean and covariance.
+    fn add(&mut self, particles: &[(f64, Vector2<f64>, Matrix2<f64>)], name: Option<u32>) {
         let weight: f64 = particles.iter().map(|(w, ..)| w).sum();
         let mean = particles.iter().map(|(w, residual, _)| residual * *w).sum::<Vector2<f64>>() / weight;
         let covariance =
@@ -130,9 +171,9 @@ impl Innovations {
             && let Some(inverse) = covariance.try_inverse()
         {
             let squared = mean.dot(&(inverse * mean));
-            self.sum += squared;
-            self.count += 1;
+            self.all.add(squared);
             self.beyond += u32::from(squared > LARGE);
+            name.into_iter().for_each(|name| self.named.entry(name).or_default().add(squared));
         }
     }
 }

@@ -1,8 +1,10 @@
 //! `fastslam landmarks`: FastSLAM 1.0 and 2.0 on simulated courses and recorded logs.
 
+mod gone;
 mod many;
 mod one;
 
+use self::gone::gone;
 use self::many::{Errors, many};
 use self::one::one;
 use crate::remarks::Outcome;
@@ -215,7 +217,7 @@ where
                     late: rms_late(&run, &setup(*seed))?,
                 };
                 let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                let outcome = outcome(&run, innovations, steps);
+                let outcome = Outcome { ekf: others.ekf, ..outcome(&run, &innovations, steps) };
                 Ok(Errors { online: run.rms_online(), others, path, outcome })
             })
             .collect();
@@ -251,7 +253,7 @@ impl Steps {
 }
 
 /// What is known of a run at its end.
-fn outcome<D, M, P>(run: &LandmarkRun<D, M, P>, innovations: Innovations, steps: Steps) -> Outcome
+fn outcome<D, M, P>(run: &LandmarkRun<D, M, P>, innovations: &Innovations, steps: Steps) -> Outcome
 where
     D: Motion + Clone,
     M: WithLandmarks,
@@ -259,19 +261,30 @@ where
 {
     let map = run.particles()[run.best()].map.landmarks();
     let sighted = run.log().sightings.iter().flatten();
-    let named: Vec<u32> = sighted.clone().filter_map(|feature| feature.signature).collect();
+    let names: Vec<u32> = sighted.clone().filter_map(|feature| feature.signature).collect();
+    let (named, seen) = (names.len(), names.into_iter().collect::<BTreeSet<u32>>());
     // Where most have no name, names do not tell what was there.
-    let seen: BTreeSet<u32> =
-        if 2 * named.len() < sighted.count() { BTreeSet::new() } else { named.into_iter().collect() };
+    let seen = if 2 * named < sighted.count() { BTreeSet::new() } else { seen };
+    let unknown = matches!(map.correspondence(), Correspondence::Unknown(_));
+    // Only by their names are those of the map known to be those that were seen; else the filter strikes them off by itself.
+    let named_map = map.iter().filter(|_| !unknown).map(|(index, landmark)| (index, landmark.mean));
+    let gone = gone(&run.path(run.best()), &run.log().sightings, named_map, map.sensor());
+    let count = |features: u32| f64::from(features);
     Outcome {
         innovations: (innovations.count(), innovations.mean(), innovations.share_beyond()),
-        unknown: matches!(map.correspondence(), Correspondence::Unknown(_)),
+        unknown,
         drift: run.drift(),
         left: map.iter().count() as f64,
         founded: f64::from(steps.founded),
         blind: f64::from(steps.blind.max(steps.blind_now)) / f64::from(steps.taken.max(1)),
         errors: [run.rms_online(), run.rms_odometry()],
         there: seen.len() as f64,
+        contradicting: if unknown { 0.0 } else { count(innovations.contradicting()[1]) },
+        gone: gone as f64,
+        founded_again: count(innovations.founded().values().sum()) - innovations.founded().len() as f64,
+        named: named as f64,
+        range_std: map.sensor().range_std,
+        ..Outcome::default()
     }
 }
 

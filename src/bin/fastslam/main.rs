@@ -1,5 +1,6 @@
 //! `fastslam`: recorded drives, mapped.
 
+mod calibration;
 mod landmark_graph;
 mod landmarks;
 mod log;

@@ -1,5 +1,6 @@
 //! What the rows of a landmark log say against each other: every number is possible, and yet something is wrong.
 
+use crate::calibration::Sequence;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -9,6 +10,12 @@ const LONGEST_ROW: f64 = 5.0;
 
 /// Largest share of measurements that may be lost without a word.
 const LOST: f64 = 0.05;
+
+/// Largest share of the drive without a measurement that is not worth a word.
+const SILENT: f64 = 0.25;
+
+/// Largest share of measurements that may give the numbers of the one before them. A camera that is read faster than it takes pictures does so in one of fifty.
+const REPEATED: f64 = 0.05;
 
 /// Largest speed of a robot \[m/s\].
 const FASTEST: f64 = 50.0;
@@ -28,10 +35,14 @@ pub struct Drive<'a> {
 impl Drive<'_> {
     /// What is to be told, each with what to look at.
     pub fn remarks(&self) -> Vec<String> {
-        [self.lost(), self.impossible(), self.units(), self.unmoved(), self.gap(), self.stuck()]
-            .into_iter()
-            .flatten()
-            .collect()
+        [self.of_rows(), Sequence::new(self.odometry, self.looks).remarks()].concat()
+    }
+
+    /// What rows and looks contradict, whatever lies between two looks.
+    fn of_rows(&self) -> Vec<String> {
+        let of_looks = [self.lost(), self.silent(), self.impossible(), self.repeated()];
+        let of_odometry = [self.units(), self.unmoved(), self.gap(), self.stuck()];
+        of_looks.into_iter().chain(of_odometry).flatten().collect()
     }
 
     fn features(&self) -> impl Iterator<Item = (f64, &Feature)> {
@@ -47,6 +58,41 @@ impl Drive<'_> {
                 "{lost} of {all} measurements are not used: they lie outside the time of both odometry and ground truth, {start} to {end} s; compare \
                  the clocks"
             )
+        })
+    }
+
+    /// The longest time without a measurement, at either end of the drive too.
+    fn silent(&self) -> Option<String> {
+        let [start, end] = self.used;
+        let within = self.looks.iter().map(|(time, _)| *time).filter(|time| (start..=end).contains(time));
+        let times: Vec<f64> = std::iter::once(start).chain(within).chain([end]).collect();
+        let pairs = times.windows(2).map(|pair| [pair[0], pair[1]]);
+        let [from, to] = pairs.max_by(|a, b| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))?;
+        (to - from > SILENT * (end - start)).then(|| {
+            format!("nothing was measured from {from} to {to} s, a large part of the drive: the path of that time is raw odometry at best")
+        })
+    }
+
+    /// Measurements that give the numbers of the one before them although the robot moved.
+    fn repeated(&self) -> Option<String> {
+        let mut last: BTreeMap<u32, (f64, &Feature)> = BTreeMap::new();
+        let moves = |from: f64, to: f64| {
+            let first = self.odometry.partition_point(|row| row[0] <= from).max(1) - 1;
+            self.odometry[first..].iter().take_while(|row| row[0] < to).all(|row| !rests(row))
+        };
+        let (mut all, mut repeated) = (0, 0);
+        for (time, feature) in self.features() {
+            let Some(signature) = feature.signature else { continue };
+            if let Some((before, same)) = last.insert(signature, (time, feature))
+                && time - before < LONGEST_ROW
+                && moves(before, time)
+            {
+                all += 1;
+                repeated += u32::from(same.z == feature.z);
+            }
+        }
+        (f64::from(repeated) > REPEATED * f64::from(all)).then(|| {
+            format!("{repeated} measurements give the very numbers of the one before them while the robot moves: each counts as one of its own")
         })
     }
 
@@ -119,7 +165,7 @@ mod tests {
 
     const SENSOR: RangeBearing = RangeBearing { range_std: 0.1, bearing_std: 0.02, max_range: 9.0, field_of_view: TAU };
 
-    /// A drive of 100 s, a row and a look each second, spoiled by these.
+    /// A drive of 100 s, a row and a look each second, spoiled by these. What is seen does not follow from the motion: that is for `calibration`.
     fn said(spoil_row: impl Fn(&mut [f64; 3]) -> bool, spoil_look: impl Fn(&mut f64, &mut Feature)) -> Vec<String> {
         let mut odometry: Vec<[f64; 3]> = (0..=100).map(|k| [f64::from(k), 0.2, 0.1]).collect();
         odometry.retain_mut(spoil_row);
@@ -130,7 +176,7 @@ mod tests {
             (time, vec![feature])
         };
         let looks: Vec<_> = (1..=100).map(look).collect();
-        Drive { odometry: &odometry, looks: &looks, used: [odometry[0][0], 100.0], sensor: &SENSOR }.remarks()
+        Drive { odometry: &odometry, looks: &looks, used: [odometry[0][0], 100.0], sensor: &SENSOR }.of_rows()
     }
 
     #[test]
@@ -144,7 +190,12 @@ mod tests {
             }
             true
         };
-        assert!(said(rests, |_, feature| feature.z = Vector2::new(2.0, 0.3)).is_empty());
+        let same_at_rest = |time: &mut f64, feature: &mut Feature| {
+            if (20.0..80.0).contains(time) {
+                feature.z = Vector2::new(2.0, 0.3);
+            }
+        };
+        assert!(said(rests, same_at_rest).is_empty());
     }
 
     #[test]
@@ -158,6 +209,8 @@ mod tests {
         for (said, part) in [
             (said(|_| true, |time, _| *time += 20.0), "20 of 100 measurements are not used"),
             (said(|row| row[0] > 50.0, |_, _| ()), "50 of 100 measurements are not used"),
+            (said(|_| true, |_, feature| feature.z = Vector2::new(2.0, 0.3)), "measurements give the very numbers"),
+            (said(|_| true, |time, _| *time *= 0.6), "nothing was measured from 60 to 100 s"),
             (said(|_| true, |_, feature| feature.z.x = -2.0), "100 measurements are ignored: a range must be above 0"),
             (
                 said(

@@ -64,6 +64,11 @@ fn median_outcome(errors: &[Errors]) -> Outcome {
         left: median(&|outcome| outcome.left),
         founded: median(&|outcome| outcome.founded),
         there: median(&|outcome| outcome.there),
+        contradicting: median(&|outcome| outcome.contradicting),
+        gone: median(&|outcome| outcome.gone),
+        founded_again: median(&|outcome| outcome.founded_again),
+        named: median(&|outcome| outcome.named),
+        ekf: median(&|outcome| outcome.ekf),
         blind: median(&|outcome| outcome.blind),
         errors: [0, 1].map(|k| median(&|outcome| outcome.errors[k])),
         drift: of_first

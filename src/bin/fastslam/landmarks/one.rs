@@ -1,6 +1,7 @@
 //! One run: what it prints of its errors, and of every step for programs.
 
 use super::{Arguments, Others, Steps, drift_row, innovation_row, outcome, say};
+use crate::remarks::Outcome;
 use crate::settings::Adjust;
 use crate::{picture, print, print_json};
 use anyhow::Result;
@@ -65,7 +66,7 @@ where
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
     let mut counted = Steps::default();
     steps.iter().for_each(|step| counted.add(step));
-    let outcome = outcome(&run, innovations, counted);
+    let outcome = Outcome { ekf: others.ekf, ..outcome(&run, &innovations, counted) };
     let remarks = [of_log, &outcome.remarks(D::NAMES)].concat();
     let output = Output {
         noises: noises.into(),
