@@ -14,7 +14,7 @@ mod words;
 
 use self::words::{Words, shown};
 use super::Remark;
-use super::heading::in_degrees;
+use super::heading::in_radians;
 #[cfg(feature = "json")]
 use super::json::Told;
 use super::place::place;
@@ -215,28 +215,6 @@ struct Reader {
     told: Vec<[f64; 3]>,
     /// Whether there is a ROBOTLASER1, of which both headings, of robot and laser, would have to be read anew: its headings stay radians.
     places_laser: bool,
-}
-
-/// Reads the headings of a log as degrees, if that is what they are.
-fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
-    if !in_degrees(told) {
-        return;
-    }
-    let heading = |degrees: f64| ops::wrap_angle(degrees * PI / 180.0);
-    let mut poses = log.odometry.iter_mut().zip(told);
-    // Each scan that is told with a pose comes in the order of these poses.
-    for scan in log.scans.iter_mut().filter(|scan| !scan.odometry.x.is_nan()) {
-        for ((time, pose), [_, _, degrees]) in poses.by_ref() {
-            let is_of_scan = *time == scan.time && *pose == scan.odometry;
-            pose.theta = heading(*degrees);
-            if is_of_scan {
-                scan.odometry = *pose;
-                break;
-            }
-        }
-    }
-    poses.for_each(|((_, pose), [_, _, degrees])| pose.theta = heading(*degrees));
-    log.notes.remarks.push(Remark::HeadingsInDegrees);
 }
 
 impl Reader {

@@ -1,5 +1,6 @@
 //! Headings that are told in degrees.
 
+use super::{LaserLog, Remark};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
 use fastslam::ops;
@@ -11,8 +12,30 @@ const ALONG: [f64; 2] = [0.8, 0.5];
 /// Fewer motions are no evidence.
 const ENOUGH: usize = 10;
 
+/// Reads the headings of a log as degrees, if that is what they are.
+pub(super) fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
+    if !in_degrees(told) {
+        return;
+    }
+    let heading = |degrees: f64| ops::wrap_angle(degrees * PI / 180.0);
+    let mut poses = log.odometry.iter_mut().zip(told);
+    // Each scan that is told with a pose comes in the order of these poses.
+    for scan in log.scans.iter_mut().filter(|scan| !scan.odometry.x.is_nan()) {
+        for ((time, pose), [_, _, degrees]) in poses.by_ref() {
+            let is_of_scan = *time == scan.time && *pose == scan.odometry;
+            pose.theta = heading(*degrees);
+            if is_of_scan {
+                scan.odometry = *pose;
+                break;
+            }
+        }
+    }
+    poses.for_each(|((_, pose), [_, _, degrees])| pose.theta = heading(*degrees));
+    log.notes.remarks.push(Remark::HeadingsInDegrees);
+}
+
 /// Whether poses \[m, as told\] tell of one motion only if their headings are degrees: wheels roll along the heading, or at one angle to it.
-pub(super) fn in_degrees(told: &[[f64; 3]]) -> bool {
+fn in_degrees(told: &[[f64; 3]]) -> bool {
     if !told.iter().any(|[_, _, theta]| theta.abs() > 2.0 * PI) {
         return false;
     }
