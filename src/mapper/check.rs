@@ -213,10 +213,10 @@ pub fn unit_of_ranges(scans: &[LaserScan], settings: &LaserMapperSettings) -> Op
     let fits = |times: f64| {
         let mut scans = scans.to_vec();
         scans.iter_mut().for_each(|scan| scan.ranges.iter_mut().for_each(|range| *range *= times as f32));
-        let check = OdometryCheck::of(&scans, settings).filter(OdometryCheck::is_well)?;
-        (check.fitting > FITTING && unit(check.drives * times) == unit(times)).then_some(())
+        let check = OdometryCheck::of(&scans, settings).filter(OdometryCheck::is_well);
+        check.is_some_and(|check| check.fitting > FITTING && unit(check.drives * times) == unit(times))
     };
-    UNITS.into_iter().find(|(size, _)| fits(*size).is_some())
+    UNITS.into_iter().find(|(size, _)| fits(*size))
 }
 
 /// The scans between which odometry moves.

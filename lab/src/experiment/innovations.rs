@@ -97,11 +97,11 @@ impl Innovations {
         self.all.mean()
     }
 
-    /// How many landmarks have a name and were seen again, and how many of them have a mean of their own that is more than twice the most that is taken to
-    /// agree with the told noises: few innovations of few particles are larger together than as many independent ones.
-    pub fn contradicting(&self) -> [u32; 2] {
+    /// How many landmarks with names have a mean of their own that is more than twice the most that is taken to agree with the told noises: few
+    /// innovations of few particles are larger together than as many independent ones.
+    pub fn contradicting(&self) -> u32 {
         let contradicts = |of: &&Squares| of.mean().is_some_and(|mean| mean > 2.0 * agreeing(of.count)[1]);
-        [self.named.len() as u32, self.named.values().filter(contradicts).count() as u32]
+        self.named.values().filter(contradicts).count() as u32
     }
 
     /// How often features of each name were taken for a landmark never seen before, by the best particles.

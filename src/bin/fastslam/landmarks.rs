@@ -279,7 +279,7 @@ where
         blind: f64::from(steps.blind.max(steps.blind_now)) / f64::from(steps.taken.max(1)),
         errors: [run.rms_online(), run.rms_odometry()],
         there: seen.len() as f64,
-        contradicting: if unknown { 0.0 } else { count(innovations.contradicting()[1]) },
+        contradicting: if unknown { 0.0 } else { count(innovations.contradicting()) },
         gone: gone as f64,
         founded_again: count(innovations.founded().values().sum()) - innovations.founded().len() as f64,
         named: named as f64,
