@@ -216,11 +216,15 @@ async function expectNothingLeft(page: Page, first: number, times: number): Prom
       await Promise.all(figures.map(figure => (figure as unknown as { settled(): Promise<void> }).settled()))
     }, times)
   await cycle(first)
-  const before = [(await tapped(page)).memory, await heap()] as const
-  await cycle(times)
-  const after = [(await tapped(page)).memory, await heap()] as const
-  expect(after[0], 'memory of the program [bytes]').toBe(before[0])
-  expect(after[1], `heap of the page [bytes], before ${before[1]}`).toBeLessThan(1.15 * before[1])
+  const held = async () => ({ program: (await tapped(page)).memory, page: await heap() })
+  const rounds = [await held()]
+  // What is left behind makes each round take more. Which figures are painted at once is the machine's choice, and a round in which more are takes more once.
+  const isLevel = () => rounds.some(({ program, page }, i) => i > 0 && program === rounds[i - 1].program && page < 1.15 * rounds[0].page)
+  while (rounds.length <= 3 && !isLevel()) {
+    await cycle(times)
+    rounds.push(await held())
+  }
+  expect(isLevel(), `a round of ${times} times leaves no byte behind: ${JSON.stringify(rounds)}`).toBe(true)
 }
 
 test('twenty figures fetch one program, rest when out of sight, and leave nothing behind after 20 times out and in', async ({ page, complaints, baseURL }) => {
