@@ -122,6 +122,21 @@ impl OdometryCheck {
         found.check()
     }
 
+    /// The unit that all ranges of a log are in, as a part of a metre and by its name, where odometry in metres and ranges in metres do not go together, and
+    /// with ranges in this unit clearly do.
+    pub fn unit_of_ranges(scans: &[LaserScan], settings: &LaserMapperSettings) -> Option<(f64, &'static str)> {
+        if Self::of(scans, settings).is_some_and(|check| check.explained[0] > EXPLAINED) {
+            return None;
+        }
+        let fits = |times: f64| {
+            let mut scans = scans.to_vec();
+            scans.iter_mut().for_each(|scan| scan.ranges.iter_mut().for_each(|range| *range *= times as f32));
+            let check = Self::of(&scans, settings).filter(Self::is_well);
+            check.is_some_and(|check| check.fitting > FITTING && unit(check.drives * times) == unit(times))
+        };
+        UNITS.into_iter().find(|(size, _)| fits(*size))
+    }
+
     /// Whether scans and odometry clearly tell of one motion.
     fn is_well(&self) -> bool {
         self.turns.is_some() && self.explained.iter().all(|share| *share > EXPLAINED) && self.fault().is_none()
@@ -201,22 +216,6 @@ impl OdometryFault {
             _ => Pose2::new(x, y, theta),
         }
     }
-}
-
-/// The unit that all ranges of a log are in, as a part of a metre and by its name, where odometry in metres and ranges in metres do not go together, and
-/// with ranges in this unit clearly do.
-pub fn unit_of_ranges(scans: &[LaserScan], settings: &LaserMapperSettings) -> Option<(f64, &'static str)> {
-    let as_told = OdometryCheck::of(scans, settings);
-    if as_told.is_some_and(|check| check.explained[0] > EXPLAINED) {
-        return None;
-    }
-    let fits = |times: f64| {
-        let mut scans = scans.to_vec();
-        scans.iter_mut().for_each(|scan| scan.ranges.iter_mut().for_each(|range| *range *= times as f32));
-        let check = OdometryCheck::of(&scans, settings).filter(OdometryCheck::is_well);
-        check.is_some_and(|check| check.fitting > FITTING && unit(check.drives * times) == unit(times))
-    };
-    UNITS.into_iter().find(|(size, _)| fits(*size))
 }
 
 /// The scans between which odometry moves.

@@ -36,7 +36,7 @@ mod spread;
 mod tests;
 mod wheels;
 
-pub use check::{OdometryCheck, OdometryFault, unit_of_ranges};
+pub use check::{OdometryCheck, OdometryFault};
 use closing::Closings;
 pub use innovations::OdometryInnovations;
 pub use localizer::Localizer;

@@ -1,6 +1,6 @@
 //! What is said of a log as a whole before it is mapped, and put right where it can be.
 
-use fastslam::mapper::{LaserMapperSettings, OdometryCheck, OdometryFault, unit_of_ranges};
+use fastslam::mapper::{LaserMapperSettings, OdometryCheck, OdometryFault};
 use fastslam_log::{Beyond, LaserLog, Remark, UnitChange};
 
 /// Says that many readings are beyond the longest range that is declared.
@@ -40,7 +40,7 @@ pub fn ranges_in_metres(log: &mut LaserLog, settings: &LaserMapperSettings, name
     if log.notes.remarks.iter().any(without) {
         return;
     }
-    if let Some((metres, unit)) = unit_of_ranges(&log.scans, settings) {
+    if let Some((metres, unit)) = OdometryCheck::unit_of_ranges(&log.scans, settings) {
         for range in log.scans.iter_mut().flat_map(|scan| &mut scan.ranges) {
             *range *= metres as f32;
         }

@@ -3,9 +3,7 @@
 use super::mapper::yard;
 use super::robots::mapped;
 use fastslam::geometry::Pose2;
-use fastslam::mapper::{
-    LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed, Remark, match_scans, unit_of_ranges,
-};
+use fastslam::mapper::{LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed, Remark, match_scans};
 use fastslam::sensor::LaserScan;
 use fastslam_lab::experiment::graph::PathError;
 use fastslam_lab::experiment::log::{Example, Recipe};
@@ -263,7 +261,7 @@ fn the_unit_of_all_ranges_is_found() {
     {
         let mut scans = log.scans.clone();
         scans.iter_mut().flat_map(|scan| &mut scan.ranges).for_each(|range| *range *= metre);
-        let found = unit_of_ranges(&scans, &LaserMapperSettings::default()).map(|(_, name)| name);
+        let found = OdometryCheck::unit_of_ranges(&scans, &LaserMapperSettings::default()).map(|(_, name)| name);
         assert_eq!(found, unit, "{metre}");
     }
 }
@@ -292,7 +290,7 @@ fn nothing_is_wrong_throughout_with_logs_of_all_kinds() {
         let check = OdometryCheck::of(&log.scans, &LaserMapperSettings::default());
         println!("{name}: {check:.3?}");
         assert_eq!(check.and_then(|check| check.fault()), None, "{name}: {check:?}");
-        assert_eq!(unit_of_ranges(&log.scans, &LaserMapperSettings::default()), None, "{name}");
+        assert_eq!(OdometryCheck::unit_of_ranges(&log.scans, &LaserMapperSettings::default()), None, "{name}");
     }
 }
 
