@@ -73,6 +73,25 @@ mod tests {
     }
 
     #[test]
+    fn a_number_that_is_read_seldom_is_a_range_and_so_are_those_of_a_drawing() {
+        let mut seldom = log(1000.0, 2.5);
+        for scan in seldom.scans.iter_mut().skip(20) {
+            for range in scan.ranges.iter_mut().filter(|range| **range == 2.5) {
+                *range = 4.0 + *range * scan.time as f32 / 1e4;
+            }
+        }
+        let mut drawn = log(1000.0, 2.5);
+        for range in drawn.scans.iter_mut().flat_map(|scan| &mut scan.ranges) {
+            *range = if *range < 4.0 { 1.0 } else { 5.0 };
+        }
+        for mut good in [seldom, drawn] {
+            let before = good.clone();
+            assert_eq!(good.leave_constants_out(), []);
+            assert_eq!(good, before);
+        }
+    }
+
+    #[test]
     fn neither_what_met_nothing_nor_what_is_rounded_is_taken_for_an_error() {
         for (steps, constant) in [(1000.0, 81.83), (1000.0, 0.0), (4.0, 2.5), (20.0, 3.0), (1000.0, f32::INFINITY)] {
             let mut good = log(steps, constant);

@@ -106,6 +106,17 @@ mod tests {
             assert!(in_degrees(&square(degree, wrapped)), "{wrapped}");
             assert!(!in_degrees(&square(1.0, wrapped)), "{wrapped}");
         }
+        // On a straight line headings tell nothing. Where each step turns by up to 70°, to either side, only the chords of the arcs tell the heading.
+        let straight: Vec<_> = (0..50).map(|k| [f64::from(k), 0.0, 7.0]).collect();
+        assert!(!in_degrees(&straight));
+        let mut pose = Pose2::default();
+        let winding = (0..50).map(|k| {
+            let turn = f64::from(k * 37 % 141 - 70) / degree;
+            let half = Pose2::new(0.0, 0.0, turn / 2.0);
+            pose = pose.compose(&half).compose(&Pose2::new(0.5, 0.0, 0.0)).compose(&half);
+            [pose.x, pose.y, 720.0 + pose.theta * degree]
+        });
+        assert!(in_degrees(&winding.collect::<Vec<_>>()));
         let standing = vec![[0.0, 0.0, 90.0]; 50];
         assert!(!in_degrees(&standing) && !in_degrees(&[]));
     }
