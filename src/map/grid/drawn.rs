@@ -173,7 +173,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
                 let tile =
                     grid.tile_mut(i >> tile::SHIFT, j >> tile::SHIFT).expect("it was grown to cover the picture");
                 let local = tile::local(i, j);
-                tile.log_odds[local][dj][di] = units;
+                *tile.units_mut(local, [di, dj]) = units;
                 let offset = [di, dj].map(|k| ((k as f64 + 0.5) * model.cell_size - half) as f32);
                 if is_hit && tile.add_hit(local, offset, ndt_std, stretch) && model.distance_reach > 0 {
                     grid.lower_distance(i, j);

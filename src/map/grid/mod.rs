@@ -175,7 +175,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     pub(crate) fn units(&self, i: i32, j: i32) -> i8 {
         let [si, sj] = [i, j].map(|k| k.div_euclid(Self::NDT));
         let [di, dj] = [i, j].map(|k| k.rem_euclid(Self::NDT) as usize);
-        self.directory.tile(si >> tile::SHIFT, sj >> tile::SHIFT).map_or(0, |t| t.log_odds[tile::local(si, sj)][dj][di])
+        self.directory.tile(si >> tile::SHIFT, sj >> tile::SHIFT).map_or(0, |t| t.units(tile::local(si, sj), [di, dj]))
     }
 
     /// The cell of a point \[m\].
@@ -300,29 +300,28 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         let [free, occupied] = self.model.log_odds_bounds.map(tile::units);
         let side = Self::TILE_CELLS as usize;
         for (ti, tj, block) in trace.tiles() {
-            let rows = block.chunks(trace.side as usize).map(|row| &row[..side]).take(side).enumerate();
-            let rows = rows.filter(|(_, marks)| marks.iter().fold(ray_trace::UNTOUCHED, |any, mark| any | mark) > 0);
+            let marks = || block.chunks(trace.side as usize).map(|row| &row[..side]);
+            let is_touched = |row: &[u8]| row.iter().fold(ray_trace::UNTOUCHED, |any, mark| any | mark) > 0;
             // Look before writing: a tile in which nothing would change stays shared.
-            let before = self.directory.tile(ti, tj);
-            let changes = rows.clone().any(|(row, marks)| {
-                let Some(tile) = before else { return true };
-                let changes = |(cell, mark): (&i8, &u8)| {
-                    (*mark == ray_trace::HIT) | ((*mark == ray_trace::PASSED) & (*cell > free))
-                };
-                tile.row(row).as_flattened().iter().zip(marks).fold(false, |any, one| any | changes(one))
-            });
+            let changes = match self.directory.tile(ti, tj) {
+                None => marks().take(side).any(is_touched),
+                Some(tile) => tile.rows().zip(marks()).any(|(cells, marks)| {
+                    let changes = |(cell, mark): (&i8, &u8)| {
+                        (*mark == ray_trace::HIT) | ((*mark == ray_trace::PASSED) & (*cell > free))
+                    };
+                    cells.iter().zip(marks).fold(false, |any, one| any | changes(one))
+                }),
+            };
             if !changes {
                 continue;
             }
             let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
-            for (row, marks) in rows {
-                let mut cells = tile.row(row);
-                for (cell, mark) in cells.as_flattened_mut().iter_mut().zip(marks) {
+            for (cells, marks) in tile.rows_mut().zip(marks()) {
+                for (cell, mark) in cells.iter_mut().zip(marks) {
                     let passed = if *mark == ray_trace::PASSED { pass } else { 0 };
                     let add = if *mark == ray_trace::HIT { hit } else { passed };
                     *cell = cell.saturating_add(add).max(free).min(occupied);
                 }
-                tile.set_row(row, &cells);
             }
         }
     }

@@ -19,6 +19,9 @@ pub(super) fn units(log_odds: f64) -> i8 {
     (log_odds / UNIT).round().clamp(-127.0, 127.0) as i8
 }
 
+/// Of an index in a tile, the part that is the column.
+const MASK: usize = TILE as usize - 1;
+
 /// Index of an NDT cell in its tile.
 #[inline]
 pub(super) fn local(i: i32, j: i32) -> usize {
@@ -75,8 +78,8 @@ impl NdtCell {
 /// Log-odds of every occupancy cell, and the distributions of the NDT cells that were hit.
 #[derive(Clone, Debug)]
 pub(super) struct Tile<const CELLS_PER_NDT: usize> {
-    /// In [`UNIT`]s; 0 is unknown. By NDT cell, then by row and column in it.
-    pub log_odds: [[[i8; CELLS_PER_NDT]; CELLS_PER_NDT]; NDT_CELLS],
+    /// In [`UNIT`]s; 0 is unknown. Row by row, as beams are marked: by row of NDT cells, row in it, NDT cell of the row, and column in that.
+    log_odds: [[Row<CELLS_PER_NDT>; CELLS_PER_NDT]; TILE as usize],
     /// By NDT cell: one more than the place of its distribution in `ndt_cells`. For one that was never hit it is 256 minus its distance
     /// from the nearest that was, or 0 where none is near.
     places: [u8; NDT_CELLS],
@@ -84,13 +87,16 @@ pub(super) struct Tile<const CELLS_PER_NDT: usize> {
     ndt_cells: Vec<NdtCell>,
 }
 
+/// A row of occupancy cells, by NDT cell.
+type Row<const CELLS_PER_NDT: usize> = [[i8; CELLS_PER_NDT]; TILE as usize];
+
 /// NDT cells of a tile.
 const NDT_CELLS: usize = (TILE * TILE) as usize;
 
 impl<const CELLS_PER_NDT: usize> Default for Tile<CELLS_PER_NDT> {
     fn default() -> Self {
         Self {
-            log_odds: [[[0; CELLS_PER_NDT]; CELLS_PER_NDT]; NDT_CELLS],
+            log_odds: [[[[0; CELLS_PER_NDT]; TILE as usize]; CELLS_PER_NDT]; TILE as usize],
             places: [0; NDT_CELLS],
             ndt_cells: Vec::new(),
         }
@@ -104,27 +110,38 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     /// Log-odds in units of the cell in the middle of an NDT cell.
     #[inline]
     pub fn middle(&self, local: usize) -> i8 {
-        self.log_odds[local][CELLS_PER_NDT / 2][CELLS_PER_NDT / 2]
+        self.units(local, [CELLS_PER_NDT / 2; 2])
     }
 
-    /// Log-odds in units of a row of occupancy cells, by NDT cell.
+    /// Log-odds in units of the occupancy cell in this column and row of an NDT cell.
     #[inline]
-    pub fn row(&self, row: usize) -> [[i8; CELLS_PER_NDT]; TILE as usize] {
-        let (first, row) = (row / CELLS_PER_NDT * TILE as usize, row % CELLS_PER_NDT);
-        core::array::from_fn(|k| self.log_odds[first + k][row])
+    pub fn units(&self, local: usize, [i, j]: [usize; 2]) -> i8 {
+        self.log_odds[local >> SHIFT][j][local & MASK][i]
+    }
+
+    pub fn units_mut(&mut self, local: usize, [i, j]: [usize; 2]) -> &mut i8 {
+        &mut self.log_odds[local >> SHIFT][j][local & MASK][i]
+    }
+
+    /// Log-odds in units of each row of occupancy cells.
+    #[inline]
+    pub fn rows(&self) -> impl Iterator<Item = &[i8]> {
+        self.log_odds.as_flattened().iter().map(|row| row.as_flattened())
     }
 
     #[inline]
-    pub fn set_row(&mut self, row: usize, cells: &[[i8; CELLS_PER_NDT]; TILE as usize]) {
-        let (first, row) = (row / CELLS_PER_NDT * TILE as usize, row % CELLS_PER_NDT);
-        for (ndt_cell, cells) in self.log_odds[first..].iter_mut().zip(cells) {
-            ndt_cell[row] = *cells;
-        }
+    pub fn rows_mut(&mut self) -> impl Iterator<Item = &mut [i8]> {
+        self.log_odds.as_flattened_mut().iter_mut().map(|row| row.as_flattened_mut())
+    }
+
+    /// Log-odds in units of the rows of an NDT cell.
+    fn block(&self, local: usize) -> impl Iterator<Item = &[i8; CELLS_PER_NDT]> {
+        self.log_odds[local >> SHIFT].iter().map(move |row| &row[local & MASK])
     }
 
     /// Whether beams have passed all of an NDT cell: each occupancy cell of it is less likely occupied than before anything was seen.
     pub fn is_seen_through(&self, local: usize) -> bool {
-        self.log_odds[local].as_flattened().iter().all(|units| *units < 0)
+        self.block(local).flatten().all(|units| *units < 0)
     }
 
     #[inline]
@@ -167,7 +184,8 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
 
     /// Puts all that it holds into a fingerprint: every cell, which NDT cells were hit or are near one that was, and what they hold.
     pub fn hash_into(&self, hasher: &mut impl Hasher) {
-        self.log_odds.as_flattened().iter().for_each(|row| hasher.write(&row.map(|units| units as u8)));
+        let rows = (0..NDT_CELLS).flat_map(|local| self.block(local));
+        rows.for_each(|row| hasher.write(&row.map(|units| units as u8)));
         hasher.write(&self.places);
         for NdtCell { hits, mean, scatter, information } in &self.ndt_cells {
             hasher.write(&hits.to_le_bytes());
@@ -191,7 +209,7 @@ pub(super) fn bytes<const CELLS_PER_NDT: usize>(ndt_cells: usize) -> usize {
 #[cfg(feature = "serde")]
 #[derive(Clone, PartialEq, Debug, serde::Serialize, serde::Deserialize)]
 pub(super) struct SavedTile {
-    /// Flat, in the order of [`Tile::log_odds`].
+    /// By NDT cell, then by row and column in it.
     log_odds: Vec<i8>,
     places: Vec<u8>,
     ndt_cells: Vec<NdtCell>,
@@ -201,7 +219,7 @@ pub(super) struct SavedTile {
 impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     pub fn save(&self) -> SavedTile {
         SavedTile {
-            log_odds: self.log_odds.as_flattened().as_flattened().to_vec(),
+            log_odds: (0..NDT_CELLS).flat_map(|local| self.block(local)).flatten().copied().collect(),
             places: self.places.to_vec(),
             ndt_cells: self.ndt_cells.clone(),
         }
@@ -213,9 +231,11 @@ impl SavedTile {
     pub fn restore<const CELLS_PER_NDT: usize>(&self) -> Result<Tile<CELLS_PER_NDT>, RestoreError> {
         let Self { log_odds, places, ndt_cells } = self;
         let mut tile = Tile::<CELLS_PER_NDT>::default();
-        let cells = tile.log_odds.as_flattened_mut().as_flattened_mut();
-        save::count("maps.tiles.log_odds", log_odds.len(), cells.len())?;
-        cells.copy_from_slice(log_odds);
+        save::count("maps.tiles.log_odds", log_odds.len(), NDT_CELLS * CELLS_PER_NDT * CELLS_PER_NDT)?;
+        for (k, units) in log_odds.iter().enumerate() {
+            let (row, i) = (k / CELLS_PER_NDT, k % CELLS_PER_NDT);
+            *tile.units_mut(row / CELLS_PER_NDT, [i, row % CELLS_PER_NDT]) = *units;
+        }
         save::count("maps.tiles.places", places.len(), NDT_CELLS)?;
         tile.places.copy_from_slice(places);
         // All that are no distance: see `places`.
