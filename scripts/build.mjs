@@ -53,7 +53,7 @@ async function buildProgram(program) {
   await wasmPack(folderOf(program), pageArgs(program))
   mkdirSync(dirname(programFile(program)), { recursive: true })
   copyFileSync(join(folderOf(program), wasm), programFile(program))
-  return optimise(programFile(program))
+  return optimise(program)
 }
 
 /** The program that asks most of JavaScript; all export the same. */
@@ -147,8 +147,9 @@ export async function build(singles = []) {
   await buildPages()
 }
 
-/** wasm-opt takes far longer than an incremental build: what it made of the same input is kept, of each program once. @param {string} file */
-async function optimise(file) {
+/** wasm-opt takes far longer than an incremental build: what it made of the same input is kept, of each program once. @param {string} program */
+async function optimise(program) {
+  const file = programFile(program)
   const input = readFileSync(file)
   const hash = createHash('sha256')
   for (const other of [fileURLToPath(import.meta.url), join(root, 'scripts', 'unasked.mjs'), join(root, 'node_modules', 'binaryen', 'package.json')]) hash.update(readFileSync(other))
@@ -158,7 +159,7 @@ async function optimise(file) {
     rmSync(folder, { recursive: true, force: true })
     mkdirSync(folder, { recursive: true })
     const part = `${kept}.part`
-    writeFileSync(part, await withoutUnasked(input))
+    writeFileSync(part, await withoutUnasked(input, program))
     await run(npmBin('wasm-opt'), [...optimiser, part, '-o', part])
     renameSync(part, kept)
   }

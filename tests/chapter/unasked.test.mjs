@@ -8,13 +8,16 @@ const kept = ['uniform_color', 'load_dst', 'load_dst_tail', 'store', 'store_tail
 const others = ['lowp::hue', 'lowp::load_dst_u8', 'highp::source_over', 'highp::gradient']
 
 /** With their crate. */
-const never = ['tiny_skia::shaders::radial_gradient::RadialGradient::push_stages::{{closure}}::h01', 'tiny_skia::scan::hairline::hair_line_rgn::h02', 'tiny_skia::scan::hairline::hair_cubic2::h03', 'tiny_skia_path::stroker::PathStroker::cubic_stroke::h04']
-const always = ['tiny_skia::scan::hairline_aa::anti_hair_line_rgn::h05', 'tiny_skia_path::path_geometry::chop_cubic_at2::h06', 'tiny_skia::scan::hairline::stroke_path_impl::h07', 'fastslam::lowp::hue::h08']
+const never = ['tiny_skia::shaders::radial_gradient::RadialGradient::push_stages::{{closure}}::h01', 'tiny_skia::scan::hairline::hair_line_rgn::h02', 'tiny_skia::scan::hairline::hair_cubic2::h03', 'tiny_skia_path::stroker::PathStroker::cubic_stroke::h04', 'tiny_skia::scan::hairline::hair_quad::h20', 'tiny_skia::scan::hairline::extend_pts::h21', 'tiny_skia_path::dash::ContourMeasure::compute_quad_segs::h22', 'tiny_skia_path::path_geometry::find_cubic_max_curvature::h23']
+const always = ['tiny_skia::scan::hairline_aa::anti_hair_line_rgn::h05', 'tiny_skia_path::path_geometry::chop_cubic_at2::h06', 'tiny_skia::scan::hairline::stroke_path_impl::h07', 'fastslam::lowp::hue::h08', 'tiny_skia::edge_builder::BasicEdgeBuilder::push_quad::h24']
+
+/** What the smoother's program never calls, and others do. */
+const byLikelihood = 'fastslam::map::landmarks::association::Associated::by_likelihood::h25'
 
 /** A program of functions of these names, and of those beside them; each answers 7, and is exported by its place. @param {string[]} stages */
 function program(stages) {
   const module = new binaryen.Module()
-  const names = [...stages.map((stage, at) => `tiny_skia::pipeline::${stage}::h${(at + 10).toString(16)}`), ...never, ...always]
+  const names = [...stages.map((stage, at) => `tiny_skia::pipeline::${stage}::h${(at + 10).toString(16)}`), ...never, ...always, byLikelihood]
   for (const [at, name] of names.entries()) {
     module.addFunction(name, binaryen.none, binaryen.i32, [], module.i32.const(7))
     module.addFunctionExport(name, `f${at}`)
@@ -37,11 +40,18 @@ function answering(bytes) {
 }
 
 test('stages that no paint asks for stop the program, and what is not one of them answers', async () => {
-  const none = [...never.map(() => false), ...always.map(() => true)]
+  const none = [...never.map(() => false), ...always.map(() => true), true]
   assert.deepEqual(answering(await withoutUnasked(program([...kept, ...others]))), [...kept.map(() => true), ...others.map(() => false), ...none])
   assert.deepEqual(answering(await withoutUnasked(program([]))), none)
 })
 
 test('a stage that is asked for and is not there any more stops the build', async () => {
   await assert.rejects(withoutUnasked(program(kept.slice(1))), /no stage named uniform_color any more/)
+})
+
+test('what the figure of one program never asks of a filter is left out of that program alone, and stops its build where it is not there', async () => {
+  const left = [...never.map(() => false), ...always.map(() => true)]
+  assert.deepEqual(answering(await withoutUnasked(program([]), 'smoothing')), [...left, false])
+  assert.deepEqual(answering(await withoutUnasked(program([]), 'doors')), [...left, true])
+  await assert.rejects(withoutUnasked(new binaryen.Module().emitBinary(), 'smoothing'), /smoothing has no function like .*by_likelihood/)
 })

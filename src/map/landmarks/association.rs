@@ -220,6 +220,9 @@ impl Associated {
     ///
     /// The pairs that nothing competes with go first, and what the belief learns from them decides between the others, of which the most
     /// certain goes first. What no landmark explains better than p₀ in the end is new.
+    ///
+    /// A function of its own in programs as well, so that scripts/unasked.mjs can leave it out of one whose landmarks all have names.
+    #[inline(never)]
     fn by_likelihood(&mut self, gate: &Gate, features: &[Feature], order: Vec<usize>, belief: &mut dyn Belief) {
         let len = belief.index_bound();
         let (mut left, mut taken) = (order, Vec::new());
