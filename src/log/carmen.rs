@@ -13,7 +13,6 @@
 mod words;
 
 use self::words::{Words, shown};
-use super::Remark;
 use super::heading::in_radians;
 #[cfg(feature = "json")]
 use super::json::Told;
@@ -249,7 +248,7 @@ impl Reader {
                     self.log.notes.beyond.add(&scan.ranges, scan.max_range);
                     self.log.scans.push(scan);
                 }
-                Told::Remark(remark) => self.log.notes.remarks.push(Remark::Told(remark)),
+                Told::Remark(remark) => self.log.notes.remarks.push(super::Remark::Told(remark)),
                 Told::Malformed(count, message) => {
                     self.log.notes.malformed += count;
                     self.log.notes.first_malformed.get_or_insert(LogError::whole(LogProblem::Told(message)));
