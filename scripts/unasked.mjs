@@ -29,11 +29,11 @@ const unaskedOf = { smoothing: [/^fastslam::map::landmarks::association::Associa
 /**
  * A program with empty functions in the place of those: one that is called all the same stops it there, as a panic does. Its functions
  * still bear the names that Rust gave them; of what comes out they do not.
- * @param {Uint8Array} program @param {string} [name] as in the registry
+ * @param {Uint8Array} bytes @param {string} [program] its name
  */
-export async function withoutUnasked(program, name = '') {
+export async function withoutUnasked(bytes, program = '') {
   const { default: binaryen } = await import('binaryen')
-  const module = binaryen.readBinary(program)
+  const module = binaryen.readBinary(bytes)
   const functions = Array.from({ length: module.getNumFunctions() }, (_, at) => binaryen.getFunctionInfo(module.getFunctionByIndex(at)))
   const stages = functions.flatMap(of => {
     const [, pipeline, stage = ''] = /^tiny_skia::pipeline::(lowp|highp)::(\w+)::h[0-9a-f]+$/.exec(of.name) ?? []
@@ -41,12 +41,11 @@ export async function withoutUnasked(program, name = '') {
   })
   const missing = asked.filter(name => !stages.some(({ stage, kept }) => kept && stage === name))
   if (stages.length > 0 && missing.length > 0) throw new StepError(`tiny-skia has no stage named ${missing.join(', ')} any more.`, 'scripts/unasked.mjs lists those that paints ask for.')
-  const own = (unaskedOf[name] ?? []).map(one => {
-    const found = functions.find(of => one.test(of.name))
-    if (!found) throw new StepError(`The program ${name} has no function like ${one} any more.`, 'scripts/unasked.mjs lists those that it never calls.')
-    return found
-  })
-  for (const { name, params, results } of [...stages.filter(({ kept }) => !kept), ...functions.filter(({ name }) => unasked.some(one => one.test(name))), ...own]) {
+  const own = unaskedOf[program] ?? []
+  const absent = own.filter(one => !functions.some(({ name }) => one.test(name)))
+  if (absent.length > 0) throw new StepError(`The program ${program} has no function like ${absent.join(', ')} any more.`, 'scripts/unasked.mjs lists those that it never calls.')
+  const left = functions.filter(({ name }) => [...unasked, ...own].some(one => one.test(name)))
+  for (const { name, params, results } of [...stages.filter(({ kept }) => !kept), ...left]) {
     module.removeFunction(name)
     module.addFunction(name, params, results, [], module.unreachable())
   }

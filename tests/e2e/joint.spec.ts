@@ -70,6 +70,9 @@ test('exercise 2 (c): a guess is dragged, nothing tells the answer before, and t
 for (const [particles, repeats, more] of [['5000', 12, {}], ['20000', 6, breadth]] as const) {
   test(`${particles} particles do not keep the page waiting, and are shown before all repeats are run`, more, async ({ page }) => {
     const figure = await open(page, 'particles=100')
+    // However quick the machine, all are not run within a few frames.
+    const client = await page.context().newCDPSession(page)
+    await client.send('Emulation.setCPUThrottlingRate', { rate: 4 })
     await figure.element.evaluate((element, particles) => {
       const page = window as Window & { slices?: number; shown?: number[] }
       page.shown = []
@@ -92,8 +95,8 @@ for (const [particles, repeats, more] of [['5000', 12, {}], ['20000', 6, breadth
       return [slices!, shown!]
     })
     expect(frames, 'the page went on').toBeGreaterThan(20)
-    // How many of them are shown in between is the machine's choice.
-    expect(shown[0], `repeats as they were shown: ${shown}`).toBeLessThan(repeats)
+    expect(shown.length, `repeats as they were shown: ${shown}`).toBeGreaterThan(2)
+    expect(shown[0], 'of the repeats so far').toBeLessThan(repeats)
     expect(shown, 'none is lost').toEqual(shown.toSorted((a, b) => a - b))
   })
 }
