@@ -16,6 +16,7 @@ use self::words::{Words, shown};
 use super::heading::in_radians;
 #[cfg(feature = "json")]
 use super::json::Told;
+use super::number::number;
 use super::place::place;
 use super::{Field, LaserLog, LogError, LogProblem};
 use core::f64::consts::PI;
@@ -254,7 +255,7 @@ impl Reader {
                     self.log.notes.first_malformed.get_or_insert(LogError::whole(LogProblem::Told(message)));
                 }
             },
-            _ if kind.parse::<f64>().is_ok_and(f64::is_finite) => self.tum(text)?,
+            _ if number(kind).is_some_and(f64::is_finite) => self.tum(text)?,
             "RLASER" | "ROBOTLASER2" => self.log.notes.rear += 1,
             _ if kind.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-./".contains(&byte)) => {
                 let unknown = &mut self.log.notes.unknown;

@@ -9,35 +9,51 @@
 //! missing) and `odometry` (x, y, heading of the robot) may be missing. Where scans have no odometry of their own it comes from lines of a TUM
 //! file, which may stand anywhere between them or in front of them. What else an object holds is passed over.
 
+use super::number::number;
 use super::place::NOWHERE;
 use super::{LaserLog, LogProblem, Notes};
 use core::f64::consts::PI;
 use fastslam::geometry::Pose2;
 use fastslam::sensor::LaserScan;
+use serde::de::{Deserializer, Error};
 use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
 
-/// What a line may hold.
+/// A number of a line, read as those of all other logs are: to the bit, for which `serde_json` has its feature `float_roundtrip`, a second
+/// reader of numbers and as large as all the rest of it.
+#[derive(Clone, Copy, Default)]
+struct Number(f64);
+
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = <&RawValue>::deserialize(deserializer)?.get();
+        let value = number(text).filter(|value| value.is_finite()).map(Self);
+        value.ok_or_else(|| D::Error::custom("expected a finite number"))
+    }
+}
+
+/// What a line may hold, and how its numbers and its ranges are read or written.
 #[derive(Default, Serialize, Deserialize)]
 #[serde(default)]
-pub(super) struct Line {
+struct Line<N, R> {
     #[serde(skip_serializing_if = "Option::is_none")]
     remark: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     malformed: Option<u32>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    time: Option<f64>,
+    time: Option<N>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    angle_min: Option<f64>,
+    angle_min: Option<N>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    angle_increment: Option<f64>,
+    angle_increment: Option<N>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    range_max: Option<f64>,
+    range_max: Option<N>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    laser: Option<[f64; 3]>,
+    laser: Option<[N; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    odometry: Option<[f64; 3]>,
+    odometry: Option<[N; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    ranges: Option<Vec<Option<f32>>>,
+    ranges: Option<Vec<Option<R>>>,
 }
 
 /// What a line tells.
@@ -50,7 +66,7 @@ pub(super) enum Told {
 }
 
 pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
-    let line: Line = serde_json::from_str(line).map_err(|error| {
+    let line: Line<Number, Number> = serde_json::from_str(line).map_err(|error| {
         // As Python writes them, unless it is told not to.
         let is_python = line.contains("NaN") || line.contains("Infinity");
         LogProblem::Json(if is_python { PYTHON.into() } else { error.to_string() })
@@ -60,7 +76,7 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
         (None, Some(remark)) => return Ok(Told::Remark(remark)),
         (None, None) => {}
     }
-    let number = |name, value: Option<f64>| value.ok_or(LogProblem::JsonLacks(name));
+    let number = |name, value: Option<Number>| value.map(|Number(value)| value).ok_or(LogProblem::JsonLacks(name));
     let (time, first_angle) = (number("time", line.time)?, number("angle_min", line.angle_min)?);
     let angle_step = number("angle_increment", line.angle_increment)?;
     if first_angle.abs() > 2.0 * PI || angle_step.abs() > PI || angle_step == 0.0 {
@@ -70,21 +86,25 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     if ranges.is_empty() {
         return Err(LogProblem::JsonNoRanges);
     }
-    let pose = |[x, y, theta]: [f64; 3]| Pose2::new(x, y, theta);
+    let told = |pose: [Number; 3]| pose.map(|Number(value)| value);
+    let pose = |pose| {
+        let [x, y, theta] = told(pose);
+        Pose2::new(x, y, theta)
+    };
     let scan = LaserScan {
         time,
         odometry: line.odometry.map_or(Pose2::default(), pose),
         robot_from_laser: line.laser.map_or(Pose2::default(), pose),
         first_angle,
         angle_step,
-        max_range: line.range_max.filter(|range| *range > 0.0),
-        ranges: ranges.into_iter().map(|range| range.unwrap_or(f32::INFINITY)).collect(),
+        max_range: line.range_max.map(|Number(range)| range).filter(|range| *range > 0.0),
+        ranges: ranges.into_iter().map(|range| range.map_or(f32::INFINITY, |Number(range)| range as f32)).collect(),
     };
     if scan.validate().is_err() {
         return Err(LogProblem::JsonFar);
     }
     Ok(match line.odometry {
-        Some(told) => Told::Scan(scan, told),
+        Some(pose) => Told::Scan(scan, told(pose)),
         None => Told::Scan(LaserScan { odometry: NOWHERE, ..scan }, [0.0; 3]),
     })
 }
@@ -105,7 +125,7 @@ fn reading(range: &f32) -> Option<f32> {
 /// The scans of a log as JSON lines, each with its odometry, and what was noted of it: [`parse`](super::parse) reads back the same bits.
 pub fn write_json_lines(log: &LaserLog) -> String {
     let mut text = String::new();
-    let mut write = |line: &Line| {
+    let mut write = |line: &Line<f64, f32>| {
         text.push_str(&serde_json::to_string(line).unwrap_or_default()); // of numbers and words: nothing that can fail
         text.push('\n');
     };
@@ -130,4 +150,19 @@ pub fn write_json_lines(log: &LaserLog) -> String {
         write(&Line { remark: Some(remark.to_string()), ..Line::default() });
     }
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_is_told_with_its_place_in_the_line() {
+        for wrong in ["\"1.5\"", "true", "1e999", "[]"] {
+            let line = format!("{{\"time\": 0, \"angle_min\": {wrong}, \"angle_increment\": 1, \"ranges\": [1]}}");
+            let found = read(&line).err().map(|problem| problem.to_string()).unwrap_or_default();
+            let column = 25 + wrong.len(); // where it ends
+            assert!(found.contains(&format!("expected a finite number at line 1 column {column}")), "{found}");
+        }
+    }
 }

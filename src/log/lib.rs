@@ -9,6 +9,7 @@ mod extent;
 mod heading;
 #[cfg(feature = "json")]
 mod json;
+mod number;
 mod place;
 mod problem;
 mod relations;

@@ -6,6 +6,7 @@
 //!
 //! Reference: Kümmerle et al., *On measuring the accuracy of SLAM algorithms*, Autonomous Robots 2009.
 
+use super::number::number;
 use super::{LogError, LogProblem, odometry_at};
 use fastslam::geometry::Pose2;
 
@@ -46,7 +47,7 @@ pub fn parse_relations(bytes: &[u8]) -> Result<Vec<Relation>, LogError> {
             continue;
         }
         let numbers: Option<Vec<f64>> =
-            text.split_ascii_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite())).collect();
+            text.split_ascii_whitespace().map(|word| number(word).filter(|x| x.is_finite())).collect();
         let Some([t1, t2, x, y, _, _, _, yaw]) = numbers.and_then(|numbers| <[f64; 8]>::try_from(numbers).ok()) else {
             return Err(LogError { line, problem: LogProblem::Relation });
         };

@@ -4,6 +4,7 @@
 //! without gaps, low bytes first, and begins each header with a number more. What follows the fields named here stays unread.
 
 use crate::MessageProblem;
+use crate::number::number;
 use byteorder::{BigEndian, LittleEndian};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
@@ -18,11 +19,8 @@ impl Time {
     /// The double nearest to the stamp written as a decimal \[s\]: what a log in plain text that says the same is read as.
     pub fn seconds(self) -> f64 {
         let Self { sec, nanosec } = self;
-        let decimal = format!("{sec}.{nanosec:09}").parse();
-        decimal
-            .ok()
-            .filter(|_| sec >= 0 && nanosec < 1_000_000_000)
-            .unwrap_or(f64::from(sec) + 1e-9 * f64::from(nanosec))
+        let decimal = number(&format!("{sec}.{nanosec:09}"));
+        decimal.filter(|_| sec >= 0 && nanosec < 1_000_000_000).unwrap_or(f64::from(sec) + 1e-9 * f64::from(nanosec))
     }
 
     /// The stamp nearest to a time \[s\].

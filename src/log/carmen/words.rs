@@ -1,5 +1,6 @@
 //! The words of a message, each read as what it must be.
 
+use crate::number::number;
 use crate::{Field, LogProblem};
 use fastslam::geometry::Pose2;
 use fastslam::sensor::LaserScan;
@@ -32,7 +33,7 @@ impl<'a> Words<'a> {
     /// A finite number.
     pub fn value(&mut self, field: Field) -> Result<f64, LogProblem> {
         let word = self.word(field)?;
-        word.parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(|| self.wrong(field, Some(word)))
+        number(word).filter(|x| x.is_finite()).ok_or_else(|| self.wrong(field, Some(word)))
     }
 
     pub fn count(&mut self, field: Field) -> Result<u32, LogProblem> {
@@ -47,7 +48,7 @@ impl<'a> Words<'a> {
         for k in 0..count {
             let field = Field::Range { number: k + 1, of: count };
             let word = self.word(field)?;
-            let range = match word.parse::<f64>().ok().filter(|range| !range.is_nan()) {
+            let range = match number(word).filter(|range| !range.is_nan()) {
                 Some(range) => range as f32,
                 None if is_no_number(word) => f32::INFINITY,
                 None => return Err(self.wrong(field, Some(word))),
