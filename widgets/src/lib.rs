@@ -36,6 +36,6 @@ pub mod worked_example;
 
 pub use fastslam;
 pub use fastslam_figures_kit::{
-    action, challenge, comma, decimal, export, field, figure, font, frame, ghost, job, kept, marks, model, paint,
+    action, challenge, decimal, export, field, figure, font, frame, ghost, job, kept, marks, model, numerals, paint,
     panels, param, prediction, prelude, query, recipe, scene, sketch, view,
 };

@@ -1,10 +1,10 @@
 //! All figures: a row each. Tests, tools, the page and its generated files iterate over this list.
 
 use crate::{
-    comma::Names,
     figure::Figure,
     job::{Job, Rows},
     model::{Declared, FigureError},
+    numerals::Names,
     panels::Panels,
     query,
     view::{Layout, View},

@@ -4,11 +4,11 @@
 use crate::{
     action::Own,
     challenge::Chip,
-    comma::{self, Names},
     comparison::Comparison,
     export::{Entries, Export},
     frame,
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
+    numerals::{self, Names},
     paint::{Canvas, Theme},
     query,
     scene::{Handle, Point, Rect, Room, Scene},
@@ -188,14 +188,17 @@ impl Figure {
     /// What is to be seen at this size \[css px\], in the figure's language and way of writing numbers.
     pub fn scene(&self, width: f64, height: f64) -> Scene {
         let mut scene = self.voice.ask(|shown| shown.scene(width, height));
-        if self.decimal_comma {
-            comma::in_scene(&mut scene, self.names);
-        }
+        numerals::in_scene(&mut scene, self.comma());
         scene
     }
 
     fn written(&self, text: String) -> String {
-        if self.decimal_comma { comma::in_text(&text, self.names) } else { text }
+        numerals::in_text(&text, self.comma())
+    }
+
+    /// Where numbers have a decimal comma, the names that have none.
+    fn comma(&self) -> Option<&'static Names> {
+        self.decimal_comma.then_some(self.names)
     }
 
     /// Paints the figure: size in device px, device px per css px, and colours. Sizes no screen has are clamped.

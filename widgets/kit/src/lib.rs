@@ -8,7 +8,6 @@
 
 pub mod action;
 pub mod challenge;
-pub mod comma;
 mod comparison;
 pub mod decimal;
 pub mod export;
@@ -21,6 +20,7 @@ pub mod kept;
 pub mod marks;
 mod measured;
 pub mod model;
+pub mod numerals;
 pub mod paint;
 pub mod panels;
 pub mod param;

@@ -7,9 +7,9 @@ use crate::model::{Column, Readout, Series, Tells};
 use crate::words::{common, conditioning};
 use fastslam_lab::{baseline::information_matrix::MapCovariance, experiment::conditioning::Covariances};
 
-/// Two decimals with a minus of its own length; an exact 0 without any.
+/// Two decimals; an exact 0 without any.
 fn signed(rho: f64) -> String {
-    if rho == 0.0 { "0".into() } else { fixed(rho, 2).replace('-', "−") }
+    if rho == 0.0 { "0".into() } else { fixed(rho, 2) }
 }
 
 /// Name of a row or a column: `m3.x`.

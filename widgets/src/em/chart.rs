@@ -84,7 +84,7 @@ fn ticks(scene: &mut Scene, layout: &Layout, [low, high]: [f64; 2], iterations: 
         if y > chart.y + 5.0 && y < chart.bottom() - 5.0 {
             scene.fill(Rect::new(chart.x, y - 0.5, chart.w, 1.0), Role::Frame);
             let place = Rect::new(layout.numbers.x, y - 7.0, layout.numbers.w - 6.0, 14.0);
-            scene.text(place, plain(SIZE, Role::Muted).end(), &fixed(value, 0).replace('-', "−"));
+            scene.text(place, plain(SIZE, Role::Muted).end(), &fixed(value, 0));
         }
         value += step;
     }

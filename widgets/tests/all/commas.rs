@@ -1,8 +1,8 @@
 //! Decimal commas, in every figure.
 
 use fastslam_widgets::{
-    comma::in_text,
     figure::Figure,
+    numerals::in_text,
     registry::{self, FIGURES, VERSIONS},
     scene::Mark,
 };
@@ -26,7 +26,7 @@ fn every_number_of_every_figure_takes_a_comma_and_no_version_does() {
         let points = words(&mut figure);
         figure.set_decimal_comma(true);
         for (comma, point) in words(&mut figure).iter().zip(&points) {
-            assert_eq!(comma, &in_text(point, &VERSIONS));
+            assert_eq!(comma, &in_text(point, Some(&VERSIONS)));
             assert!(!comma.contains("FastSLAM 1,0") && !comma.contains("FastSLAM 2,0"), "{comma}");
             changed += usize::from(comma != point);
         }

@@ -108,7 +108,7 @@ fn hardly_any_noise_of_the_wheels_couples_as_many_entries_as_much_and_none_coupl
 #[test]
 fn the_first_entry_is_of_two_landmarks_that_no_pose_saw_both() {
     let figure = conditioning("");
-    assert!(figure.model().describe().ends_with("m1.y and m4.y: ρ = −0.39, though no pose saw both."));
+    assert!(figure.describe().ends_with("m1.y and m4.y: ρ = −0.39, though no pose saw both."));
 }
 
 #[test]
@@ -160,7 +160,7 @@ fn an_entry_is_named_with_its_value_in_the_picture_and_for_the_screen_reader() {
     let rho = value(&figure, "rho");
     assert_eq!((handle.name, handle.value.to_bits()), ("entry", rho.to_bits()));
     assert_eq!(handle.text, format!("m3.y and m5.x: ρ = {}", format!("{rho:.2}").replace('-', "−")));
-    assert!(figure.model().describe().contains(&handle.text));
+    assert!(figure.describe().contains(&handle.text));
     // Both landmarks are ringed and the arc between them is drawn once more.
     let accents = |query: &str| {
         let marks = scene(&conditioning(query), 800.0).marks;

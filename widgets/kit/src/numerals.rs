@@ -1,5 +1,5 @@
-//! Decimal commas, for classes that write them: the one place where the numbers of a picture, a readout or a sentence change their
-//! mark. Attributes, links and files keep the point.
+//! Numbers as readers are to see them: the one place where those of a picture, a readout or a sentence get a minus sign, and a decimal comma
+//! for classes that write one. Attributes, links and files keep hyphen and point.
 
 use crate::scene::{Mark, Scene};
 
@@ -16,30 +16,36 @@ impl Names {
     pub const NONE: Self = Self { names: &[], after: &[] };
 }
 
-/// The text with a comma wherever a point parts two digits of a number.
-pub fn in_text(text: &str, names: &Names) -> String {
+/// The text with a minus sign in place of a hyphen that stands before a number; and, if names are given that keep their point, with a comma
+/// wherever a point parts two digits of a number.
+pub fn in_text(text: &str, comma: Option<&Names>) -> String {
     let bytes = text.as_bytes();
     let digit = |i: usize| bytes.get(i).is_some_and(u8::is_ascii_digit);
-    let name = |point: usize| {
+    let joins = |i: usize| bytes[i].is_ascii_alphanumeric() || bytes[i] == b'-';
+    let name = |names: &Names, point: usize| {
         // Of bytes: what Rust says of a text cut in the middle of a letter would be 2 KB of every program.
         let (before, rest) = bytes.split_at(point - 1);
         names.names.iter().any(|name| rest.starts_with(name.as_bytes()))
             && !digit(point + 2)
             && names.after.iter().any(|word| before.ends_with(word.as_bytes()))
     };
-    let mark = |(i, c)| if c == '.' && i > 0 && digit(i - 1) && digit(i + 1) && !name(i) { ',' } else { c };
+    let mark = |(i, c)| match (c, comma) {
+        ('-', _) if digit(i + 1) && (i == 0 || !joins(i - 1)) => '−',
+        ('.', Some(names)) if i > 0 && digit(i - 1) && digit(i + 1) && !name(names, i) => ',',
+        _ => c,
+    };
     text.char_indices().map(mark).collect()
 }
 
 /// The same for all that is written in a picture. A comma is as wide as a point to a tenth of a px, so nothing moves.
-pub fn in_scene(scene: &mut Scene, names: &Names) {
+pub fn in_scene(scene: &mut Scene, comma: Option<&Names>) {
     for mark in &mut scene.marks {
         if let Mark::Text(text) = mark {
-            text.text = in_text(&text.text, names);
+            text.text = in_text(&text.text, comma);
         }
     }
     for handle in &mut scene.handles {
-        handle.text = in_text(&handle.text, names);
+        handle.text = in_text(&handle.text, comma);
     }
 }
 
@@ -63,7 +69,18 @@ mod tests {
             (".5", ".5"),
             ("σ 1.0", "σ 1,0"),
         ] {
-            assert_eq!(in_text(text, &VERSIONS), comma);
+            assert_eq!(in_text(text, Some(&VERSIONS)), comma);
+        }
+    }
+
+    #[test]
+    fn a_hyphen_before_a_number_is_a_minus_sign_and_all_others_stay() {
+        for (text, minus) in [
+            ("-2.0 °", "−2.0 °"),
+            ("between (-1, ±-0.5)", "between (−1, ±−0.5)"),
+            ("scan-to-scan, steps 3-5, 1e-7, a -b, --2", "scan-to-scan, steps 3-5, 1e-7, a -b, --2"),
+        ] {
+            assert_eq!(in_text(text, None), minus);
         }
     }
 
