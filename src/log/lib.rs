@@ -13,6 +13,8 @@ mod number;
 mod place;
 mod problem;
 mod relations;
+mod remark;
+mod repeated;
 mod tum;
 mod units;
 
@@ -22,13 +24,13 @@ pub use carmen::{LogReader, parse, write};
 pub use extent::swept_area;
 #[cfg(feature = "json")]
 pub use json::write_json_lines;
-pub use problem::{Field, LogError, LogProblem, MessageProblem, Remark, Topics};
+pub use problem::{Field, LogError, LogProblem, MessageProblem, Topics};
 pub use relations::{NEAR, Relation, RelationErrors, parse_relations, relation_errors};
+pub use remark::Remark;
 pub use tum::write_tum;
 pub use units::UnitChange;
 
 use fastslam::geometry::Pose2;
-use fastslam::mapper::LaserMapperSettings;
 use fastslam::order::sorted;
 use fastslam::sensor::LaserScan;
 
@@ -51,32 +53,10 @@ impl AsRef<[LaserScan]> for LaserLog {
 }
 
 impl LaserLog {
-    /// Takes the ranges from scans that repeat, to the bit, those of the scan before, though the robot moved in between: a driver that sends its last scan
-    /// again. Their odometry stays. How many there were, and the stamp of the first \[s\]; `None` where there were none. In a corridor that a simulator
-    /// draws without noise, all that is left out says nothing new.
-    pub fn leave_repeated_out(&mut self) -> Option<(usize, f64)> {
-        /// Fewer ranges may be equal by chance.
-        const ENOUGH: usize = 10;
-        let tells = |scan: &LaserScan| scan.ranges.iter().filter(|range| range.is_finite() && **range > 0.0).count();
-        let (mut count, mut first, mut last) = (0, None, 0);
-        for k in 1..self.scans.len() {
-            let (before, scan) = (&self.scans[last], &self.scans[k]);
-            let moved = before.odometry.between(&scan.odometry);
-            let moves = moved.x.abs().max(moved.y.abs()).max(moved.theta.abs()) > LaserMapperSettings::STILL;
-            if moves && before.ranges == scan.ranges && tells(scan) >= ENOUGH {
-                count += 1;
-                first = first.or(Some(scan.time));
-                self.scans[k].ranges.fill(f32::NAN);
-            } else {
-                last = k;
-            }
-        }
-        first.map(|time| (count, time))
-    }
-
-    /// Puts what is in it in order: clocks are set back, and of messages that come over a network some are late. The sorts are stable, so that
+    /// Puts what is in it in order: parts are written twice, clocks are set back, and of messages that come over a network some are late. The sorts are stable, so that
     /// equal stamps keep the file's order.
     fn in_order(&mut self) {
+        self.leave_copies_out();
         clock::run_on(self);
         self.notes.out_of_order = self.scans.windows(2).filter(|pair| pair[1].time < pair[0].time).count() as u32;
         self.scans = sorted(core::mem::take(&mut self.scans), |a, b| a.time.total_cmp(&b.time));

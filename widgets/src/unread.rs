@@ -75,6 +75,9 @@ pub fn remark(remark: &Remark) -> String {
         Remark::ClockSetBack { seconds, time } => {
             words::ClockSetBack { seconds: &tenths(*seconds), time: &milliseconds(*time) }.say()
         }
+        Remark::Copied { stretch: [[first, last], [from, to]], count } => {
+            words::Copied { count, first, last, from, to }.say()
+        }
         Remark::Beyond(scans) => words::Beyond { scans }.say(),
         Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
         other => other.to_string(),

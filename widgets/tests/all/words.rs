@@ -245,12 +245,13 @@ fn problems() -> Vec<LogProblem> {
     fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
 }
 
-fn remarks() -> [Remark; 6] {
+fn remarks() -> [Remark; 7] {
     [
         Remark::NoOdometry,
         Remark::StillOdometry,
         Remark::HeadingsInDegrees,
         Remark::ClockSetBack { seconds: 10.07, time: 1029.6 },
+        Remark::Copied { stretch: [[461, 520], [401, 460]], count: 60 },
         Remark::Beyond(2),
         Remark::NoTransform { laser: "laser".into(), robot: "base_link".into() },
     ]
