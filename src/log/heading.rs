@@ -2,6 +2,7 @@
 
 use super::{LaserLog, Remark};
 use core::f64::consts::PI;
+use core::ops::Range;
 use fastslam::geometry::Pose2;
 use fastslam::ops;
 
@@ -12,52 +13,120 @@ const ALONG: [f64; 2] = [0.8, 0.5];
 /// Fewer motions are no evidence.
 const ENOUGH: usize = 10;
 
-/// Reads the headings of a log as degrees, if that is what they are.
+/// Reads the headings of a log, or of its beginning or its end, as degrees, if that is what they are.
 pub(super) fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
-    if !in_degrees(told) {
-        return;
-    }
-    let heading = |degrees: f64| ops::wrap_angle(degrees * PI / 180.0);
-    let mut poses = log.odometry.iter_mut().zip(told);
+    let Some(degrees) = in_degrees(told) else { return };
+    log.notes.remarks.push(match degrees.len() == told.len() {
+        true => Remark::HeadingsInDegrees,
+        false => {
+            let [from, to] = [degrees.start, degrees.end - 1].map(|k| log.odometry[k].0);
+            Remark::SomeHeadingsInDegrees { from, to }
+        }
+    });
+    let mut poses = log.odometry.iter_mut().zip(told).enumerate();
+    let put = |k: usize, pose: &mut Pose2, heading: f64| {
+        if degrees.contains(&k) {
+            pose.theta = ops::wrap_angle(heading * PI / 180.0);
+        }
+    };
     // Each scan that is told with a pose comes in the order of these poses.
     for scan in log.scans.iter_mut().filter(|scan| !scan.odometry.x.is_nan()) {
-        for ((time, pose), [_, _, degrees]) in poses.by_ref() {
+        for (k, ((time, pose), [_, _, heading])) in poses.by_ref() {
             let is_of_scan = *time == scan.time && *pose == scan.odometry;
-            pose.theta = heading(*degrees);
+            put(k, pose, *heading);
             if is_of_scan {
                 scan.odometry = *pose;
                 break;
             }
         }
     }
-    poses.for_each(|((_, pose), [_, _, degrees])| pose.theta = heading(*degrees));
-    log.notes.remarks.push(Remark::HeadingsInDegrees);
+    poses.for_each(|(k, ((_, pose), [_, _, heading]))| put(k, pose, *heading));
 }
 
-/// Whether poses \[m, as told\] tell of one motion only if their headings are degrees: wheels roll along the heading, or at one angle to it.
-fn in_degrees(told: &[[f64; 3]]) -> bool {
-    if !told.iter().any(|[_, _, theta]| theta.abs() > 2.0 * PI) {
-        return false;
-    }
-    let [degrees, radians] = [PI / 180.0, 1.0].map(|unit| along(told, unit));
-    degrees.is_some_and(|share| share > ALONG[0]) && radians.is_some_and(|share| share < ALONG[1])
-}
-
-/// Share of the way in the direction that is driven most, as seen from the robot: twice the angle, as what drives back drives along the heading too.
-fn along(told: &[[f64; 3]], unit: f64) -> Option<f64> {
-    let (mut sum, mut way, mut count) = ([0.0; 2], 0.0, 0);
-    for pair in told.windows(2) {
-        let [from, to] = [pair[0], pair[1]].map(|[x, y, theta]| Pose2::new(x, y, unit * theta));
-        let Pose2 { x, y, theta } = from.between(&to);
-        let length = ops::hypot(x, y);
-        if length > 0.0 {
-            // The chord of an arc lies half of the turn aside.
-            let (sin, cos) = ops::sin_cos(2.0 * (ops::atan2(y, x) - 0.5 * theta));
-            sum = [sum[0] + length * cos, sum[1] + length * sin];
-            (way, count) = (way + length, count + 1);
+/// Which poses \[m, as told\] tell of one motion only if their headings are degrees: wheels roll along the heading, or at one angle to it. All of them, or
+/// those before or after the one place where all others fit best as radians.
+fn in_degrees(told: &[[f64; 3]]) -> Option<Range<usize>> {
+    let beyond = |[_, _, theta]: &[f64; 3]| theta.abs() > 2.0 * PI;
+    let (first, last) = (told.iter().position(beyond)?, told.iter().rposition(beyond)?);
+    let all = 0..told.len();
+    let [in_degrees, in_radians] = [PI / 180.0, 1.0].map(|unit| Along::sums(told, unit));
+    let is = |degrees: &Range<usize>| {
+        let share = |sums: &[Along], part: &Range<usize>| Along::of(sums, part).share();
+        let others = if degrees.start == 0 { degrees.end..told.len() } else { 0..degrees.start };
+        share(&in_degrees, degrees).is_some_and(|share| share > ALONG[0])
+            && share(&in_radians, degrees).is_some_and(|share| share < ALONG[1])
+            && (others.is_empty() || share(&in_radians, &others).is_some_and(|share| share > ALONG[0]))
+            && (degrees.contains(&first) || degrees.contains(&last))
+    };
+    let mut best = (0.0, all.clone());
+    for k in 1..told.len() {
+        let [before, after] = [0..k, k..told.len()];
+        for (degrees, radians, units) in [(&before, &after, [PI / 180.0, 1.0]), (&after, &before, [1.0, PI / 180.0])] {
+            let parts = [Along::of(&in_degrees, degrees), Along::of(&in_radians, radians)];
+            let fit =
+                parts.iter().fold(Along::step([told[k - 1], told[k]], units), |sum, part| sum.plus(part)).length();
+            if fit > best.0 && is(degrees) {
+                best = (fit, degrees.clone());
+            }
         }
     }
-    (count >= ENOUGH).then(|| ops::hypot(sum[0], sum[1]) / way)
+    // All of them, if that is what they may be.
+    [all, best.1].into_iter().find(is)
+}
+
+/// Way that is driven, and in which direction as seen from the robot: twice the angle, as what drives back drives along the heading too.
+#[derive(Clone, Copy, Default)]
+struct Along {
+    sum: [f64; 2],
+    way: f64,
+    count: usize,
+}
+
+impl Along {
+    /// That from one pose to another, with headings in these units \[rad\].
+    fn step(poses: [[f64; 3]; 2], units: [f64; 2]) -> Self {
+        let pose = |k: usize| Pose2::new(poses[k][0], poses[k][1], units[k] * poses[k][2]);
+        let Pose2 { x, y, theta } = pose(0).between(&pose(1));
+        let length = ops::hypot(x, y);
+        // The chord of an arc lies half of the turn aside.
+        let (sin, cos) = ops::sin_cos(2.0 * (ops::atan2(y, x) - 0.5 * theta));
+        Self { sum: [length * cos, length * sin], way: length, count: usize::from(length > 0.0) }
+    }
+
+    /// That up to each pose, with headings in this unit \[rad\].
+    fn sums(told: &[[f64; 3]], unit: f64) -> Vec<Self> {
+        let steps = told.windows(2).map(|pair| Self::step([pair[0], pair[1]], [unit; 2]));
+        let sums = steps.scan(Self::default(), |sum, step| {
+            *sum = sum.plus(&step);
+            Some(*sum)
+        });
+        core::iter::once(Self::default()).chain(sums).collect()
+    }
+
+    /// That between the first and the last of these poses.
+    fn of(sums: &[Self], poses: &Range<usize>) -> Self {
+        if poses.is_empty() {
+            return Self::default();
+        }
+        let (from, to) = (sums[poses.start], sums[poses.end - 1]);
+        let sum = [to.sum[0] - from.sum[0], to.sum[1] - from.sum[1]];
+        Self { sum, way: to.way - from.way, count: to.count - from.count }
+    }
+
+    fn plus(&self, more: &Self) -> Self {
+        let sum = [self.sum[0] + more.sum[0], self.sum[1] + more.sum[1]];
+        Self { sum, way: self.way + more.way, count: self.count + more.count }
+    }
+
+    /// Way in the direction that is driven most \[m\].
+    fn length(&self) -> f64 {
+        ops::hypot(self.sum[0], self.sum[1])
+    }
+
+    /// Share of the way in that direction.
+    fn share(&self) -> Option<f64> {
+        (self.count >= ENOUGH).then(|| self.length() / self.way)
+    }
 }
 
 #[cfg(test)]
@@ -103,12 +172,12 @@ mod tests {
     fn degrees_are_told_from_radians_by_the_way_that_is_driven() {
         let degree = 180.0 / PI;
         for wrapped in [true, false] {
-            assert!(in_degrees(&square(degree, wrapped)), "{wrapped}");
-            assert!(!in_degrees(&square(1.0, wrapped)), "{wrapped}");
+            assert_eq!(in_degrees(&square(degree, wrapped)), Some(0..240), "{wrapped}");
+            assert_eq!(in_degrees(&square(1.0, wrapped)), None, "{wrapped}");
         }
         // On a straight line headings tell nothing. Where each step turns by up to 70°, to either side, only the chords of the arcs tell the heading.
         let straight: Vec<_> = (0..50).map(|k| [f64::from(k), 0.0, 7.0]).collect();
-        assert!(!in_degrees(&straight));
+        assert_eq!(in_degrees(&straight), None);
         let mut pose = Pose2::default();
         let winding = (0..50).map(|k| {
             let turn = f64::from(k * 37 % 141 - 70) / degree;
@@ -116,8 +185,29 @@ mod tests {
             pose = pose.compose(&half).compose(&Pose2::new(0.5, 0.0, 0.0)).compose(&half);
             [pose.x, pose.y, 720.0 + pose.theta * degree]
         });
-        assert!(in_degrees(&winding.collect::<Vec<_>>()));
+        assert_eq!(in_degrees(&winding.collect::<Vec<_>>()), Some(0..50));
         let standing = vec![[0.0, 0.0, 90.0]; 50];
-        assert!(!in_degrees(&standing) && !in_degrees(&[]));
+        assert!(in_degrees(&standing).is_none() && in_degrees(&[]).is_none());
+    }
+
+    #[test]
+    fn a_log_whose_beginning_or_end_is_in_degrees_is_read_as_one_in_radians() {
+        let plain = log(&square(1.0, true));
+        for (degrees, times) in [(100..240, [100.5, 239.6]), (0..90, [0.5, 89.6])] {
+            let mut told = square(1.0, true);
+            told[degrees.clone()].iter_mut().for_each(|[_, _, theta]| *theta = theta.to_degrees());
+            assert_eq!(in_degrees(&told), Some(degrees.clone()));
+            let log = log(&told);
+            let [from, to] = times;
+            assert_eq!(log.notes.remarks, [Remark::SomeHeadingsInDegrees { from, to }]);
+            let near = |a: Pose2, b: Pose2| a.x == b.x && a.y == b.y && ops::wrap_angle(a.theta - b.theta).abs() < 1e-9;
+            assert!(log.scans.iter().zip(&plain.scans).all(|(a, b)| near(a.odometry, b.odometry)), "{degrees:?}");
+            assert!(log.odometry.iter().zip(&plain.odometry).all(|(a, b)| near(a.1, b.1)), "{degrees:?}");
+        }
+        // Headings that are not wrapped, and those of a compass that is broken from the middle on.
+        assert_eq!(in_degrees(&square(1.0, false)), None);
+        let mut broken = square(1.0, true);
+        broken[120..].iter_mut().enumerate().for_each(|(k, [_, _, theta])| *theta = 7.0 + (k * 37 % 141) as f64);
+        assert_eq!(in_degrees(&broken), None);
     }
 }

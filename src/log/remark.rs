@@ -13,6 +13,13 @@ pub enum Remark {
     StillOdometry,
     /// Its headings are in degrees.
     HeadingsInDegrees,
+    /// Headings of its beginning, or of its end, are in degrees.
+    SomeHeadingsInDegrees {
+        /// Stamp of the first pose whose heading is \[s\].
+        from: f64,
+        /// Stamp of the last one \[s\].
+        to: f64,
+    },
     /// The clock was set back.
     ClockSetBack {
         /// By how much \[s\].
@@ -49,6 +56,12 @@ impl fmt::Display for Remark {
             ),
             Self::HeadingsInDegrees => f.write_str(
                 "odometry and its headings go together only if headings are in degrees, and not in radians: they are read as degrees",
+            ),
+            Self::SomeHeadingsInDegrees { from, to } => write!(
+                f,
+                "from {} s to {} s odometry and its headings go together only if headings are in degrees, and not in radians: there they are read as degrees",
+                fixed(*from, 3),
+                fixed(*to, 3)
             ),
             Self::ClockSetBack { seconds, time } => write!(
                 f,

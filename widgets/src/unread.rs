@@ -72,6 +72,9 @@ pub fn remark(remark: &Remark) -> String {
         Remark::NoOdometry => words::no_odometry().into(),
         Remark::StillOdometry => words::still_odometry().into(),
         Remark::HeadingsInDegrees => words::headings_in_degrees().into(),
+        Remark::SomeHeadingsInDegrees { from, to } => {
+            words::SomeHeadingsInDegrees { from: &milliseconds(*from), to: &milliseconds(*to) }.say()
+        }
         Remark::ClockSetBack { seconds, time } => {
             words::ClockSetBack { seconds: &tenths(*seconds), time: &milliseconds(*time) }.say()
         }

@@ -245,11 +245,12 @@ fn problems() -> Vec<LogProblem> {
     fields.map(field).into_iter().chain(messages.map(message)).chain(others).collect()
 }
 
-fn remarks() -> [Remark; 7] {
+fn remarks() -> [Remark; 8] {
     [
         Remark::NoOdometry,
         Remark::StillOdometry,
         Remark::HeadingsInDegrees,
+        Remark::SomeHeadingsInDegrees { from: 1029.6, to: 1112.4 },
         Remark::ClockSetBack { seconds: 10.07, time: 1029.6 },
         Remark::Copied { stretch: [[461, 520], [401, 460]], count: 60 },
         Remark::Beyond(2),
