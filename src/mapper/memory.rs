@@ -15,7 +15,7 @@ pub struct Memory {
     pub kept_scans: u32,
     /// Bytes of these scans, and of where on the way each one that was taken is.
     pub scan_bytes: u64,
-    /// Bytes of the particles' paths and of the times of all scans.
+    /// Bytes of the particles' paths, of odometry and of the times of all scans.
     pub path_bytes: u64,
 }
 
@@ -41,7 +41,9 @@ impl LaserMapper {
     pub fn memory(&self) -> Memory {
         let maps = self.footprint();
         let [kept_scans, _, scan_bytes] = self.closings.kept_scans();
-        let poses = self.filter.descent().size() as usize * Path::NODE_BYTES + size_of_val(&self.stamps[..]);
+        let poses = self.filter.descent().size() as usize * Path::NODE_BYTES
+            + size_of_val(&self.stamps[..])
+            + size_of_val(&self.odometry[..]);
         Memory {
             maps,
             kept_map_bytes: self.footprint_with_kept().unique - maps.unique,

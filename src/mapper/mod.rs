@@ -29,6 +29,7 @@ mod remark;
 mod replay;
 #[cfg(feature = "serde")]
 mod saved;
+mod scale;
 mod scan_to_scan;
 mod settings;
 mod spread;
@@ -130,8 +131,8 @@ pub struct LaserMapper {
     views: LastViews,
     /// What closes the loops that were missed.
     closings: Closings,
-    /// Odometry of the last scan that the filter took, as it was believed; `None` before the first.
-    last: Option<Pose2>,
+    /// Odometry of each scan that the filter took, as it was believed.
+    odometry: Vec<Pose2>,
     /// Steps of the filter: scans it took after the first.
     steps: u32,
     /// Of these, how many resampled.
@@ -163,7 +164,7 @@ impl LaserMapper {
             since_mark: 0.0,
             views: LastViews::default(),
             closings: Closings::default(),
-            last: None,
+            odometry: Vec::new(),
             steps: 0,
             resampled: 0,
             single_lineage_since: (settings.particles == 1).then_some(0),
@@ -192,7 +193,7 @@ impl LaserMapper {
 
     /// The next scan, taken where odometry that is believed has the robot.
     fn push_from(&mut self, scan: &LaserScan, odometry: Pose2) -> Pushed {
-        let Some(last) = self.last else {
+        let Some(last) = self.odometry.last() else {
             self.begin(scan, odometry);
             return Pushed::First;
         };
@@ -260,7 +261,7 @@ impl LaserMapper {
     /// Writes down a scan that the filter took.
     fn take(&mut self, scan: &LaserScan, odometry: Pose2) {
         self.stamps.push(Stamp { time: scan.time, step: self.steps, step_from_robot: Pose2::default() });
-        self.last = Some(odometry);
+        self.odometry.push(odometry);
     }
 
     /// As they were set.

@@ -2,6 +2,7 @@
 //! words of his readers. Displayed, they are said in English.
 
 use super::LaserMapper;
+use super::scale::DrivenScale;
 use crate::error::fixed;
 use crate::geometry::driven;
 use core::fmt;
@@ -20,6 +21,13 @@ pub enum Remark {
         told: [f64; 2],
         /// How long it took \[s\].
         elapsed: f64,
+    },
+    /// The robot drives further by the scans than by odometry, or less far, throughout: the size of one of them is wrong, and the path cannot tell of which.
+    OtherScale {
+        /// How far it drives by the scans, per metre of odometry: the median over legs of a metre.
+        times: f64,
+        /// Standard error of it.
+        std: f64,
     },
     /// So many scans, of which the robot moved in none.
     NeverMoved(usize),
@@ -52,6 +60,12 @@ impl fmt::Display for Remark {
                 fixed(turn.to_degrees(), 0),
                 fixed(*elapsed, 1)
             ),
+            Self::OtherScale { times, std } => write!(
+                f,
+                "by the scans the robot drives {} ± {} times as far as by its odometry: either the scale of the ranges is off, and with it the size of the map, or that of odometry; the log does not tell which",
+                fixed(*times, 3),
+                fixed(*std, 3)
+            ),
             Self::NeverMoved(scans) => write!(
                 f,
                 "only the first of {scans} scans is mapped: by odometry and by what they see, the robot never moves"
@@ -82,6 +96,9 @@ impl LaserMapper {
             told: driven(&first.told),
             elapsed: first.elapsed,
         });
+        let path = self.best().path.poses();
+        let scale = DrivenScale::of(&self.odometry, &path).filter(DrivenScale::is_off);
+        let other_scale = scale.map(|DrivenScale { times, std }| Remark::OtherScale { times, std });
         let scans = self.stamps.len();
         let never_moved = (self.steps == 0 && scans > 1).then_some(Remark::NeverMoved(scans));
         let nothing_met = (scans > 0 && self.closings.met_nothing()).then_some(Remark::NothingMet);
@@ -89,6 +106,6 @@ impl LaserMapper {
         let open = last.map(|(time, _)| Remark::OpenLoops { loops: self.open_loops().count(), time });
         let [kept, taken, _] = self.closings.kept_scans();
         let thinned = (kept < taken).then_some(Remark::Thinned { kept, taken });
-        [contradicted, never_moved, nothing_met, open, thinned].into_iter().flatten().collect()
+        [contradicted, other_scale, never_moved, nothing_met, open, thinned].into_iter().flatten().collect()
     }
 }

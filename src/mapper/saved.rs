@@ -34,14 +34,14 @@ pub struct SavedMapper {
     since_mark: f64,
     views: LastViews,
     closings: SavedClosings,
-    last: Option<Pose2>,
+    odometry: Vec<Pose2>,
     resampled: u32,
     single_lineage_since: Option<u32>,
     stamps: Vec<Stamp>,
 }
 
 /// Of the form of [`SavedMapper`] and of what is in it besides the filter.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 impl LaserMapper {
     /// The mapper's state, with which a session goes on later. What maps share is in it once.
@@ -75,7 +75,7 @@ impl LaserMapper {
             since_mark: self.since_mark,
             views: self.views.clone(),
             closings: self.closings.save(),
-            last: self.last,
+            odometry: self.odometry.clone(),
             resampled: self.resampled,
             single_lineage_since: self.single_lineage_since,
             stamps: self.stamps.clone(),
@@ -100,7 +100,7 @@ impl LaserMapper {
             since_mark,
             views,
             closings,
-            last,
+            odometry,
             resampled,
             single_lineage_since,
             stamps,
@@ -123,16 +123,21 @@ impl LaserMapper {
         let begins = |path: &Path| path.back().last().is_some_and(|first| first.pose() == Pose2::default());
         save::holds(filter.particles().iter().all(|one| begins(&one.path)), "paths", "from the origin on")?;
         let steps = filter.particles()[0].path.step();
-        save::holds(last.is_some() || steps == 0, "last", "there after the first scan")?;
-        let closings = Closings::restore(closings, before, particles, last.map(|_| steps as usize))?;
+        let begun = !odometry.is_empty();
+        save::holds(
+            !begun && steps == 0 || odometry.len() == steps as usize + 1,
+            "odometry",
+            "of each scan that was taken",
+        )?;
+        let closings = Closings::restore(closings, before, particles, begun.then_some(steps as usize))?;
         let spreads = Spreads::restore(spreads, particles)?;
         odometer.check()?;
         wheels.check()?;
         views.check()?;
-        save::poses("last", last)?;
+        save::poses("odometry", odometry.iter().copied())?;
         save::poses("stamps", stamps.iter().map(|stamp| stamp.step_from_robot))?;
         save::finite("stamps", stamps.iter().map(|stamp| stamp.time))?;
-        let are_known = last.is_some() != stamps.is_empty() && stamps.iter().all(|stamp| stamp.step <= steps);
+        let are_known = begun != stamps.is_empty() && stamps.iter().all(|stamp| stamp.step <= steps);
         save::holds(are_known && stamps.is_sorted_by_key(|stamp| stamp.step), "stamps", "of steps so far, in order")?;
         let of_covariance =
             predicted.iter().flat_map(|(_, columns)| *columns.as_flattened().first_chunk::<9>().expect("3 × 3"));
@@ -151,7 +156,7 @@ impl LaserMapper {
             since_mark,
             views,
             closings,
-            last,
+            odometry,
             steps,
             resampled,
             single_lineage_since,

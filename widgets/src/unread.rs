@@ -99,6 +99,10 @@ pub fn mapped(remark: &mapper::Remark) -> String {
             seconds: &tenths(*elapsed),
         }
         .say(),
+        Remark::OtherScale { times, std } => {
+            let [times, std] = [*times, *std].map(|x| crate::decimal::fixed(x, 3));
+            words::OtherScale { times: &times, std: &std }.say()
+        }
         Remark::NeverMoved(scans) => words::NeverMoved { scans }.say(),
         Remark::OpenLoops { loops, time } => words::OpenLoops { loops, time: &milliseconds(*time) }.say(),
         Remark::NothingMet => words::nothing_met().into(),

@@ -13,7 +13,7 @@ use std::io::{BufReader, BufWriter, ErrorKind, Read, Write};
 use std::path::Path;
 
 /// How the file begins, before what is packed: with the form of what follows.
-const HEAD: &[u8] = b"fastslam session 4\n";
+const HEAD: &[u8] = b"fastslam session 5\n";
 
 /// The mapper of a session that was saved; `None` where there is no such file yet.
 pub fn read(path: &Path) -> Result<Option<LaserMapper>> {

@@ -123,6 +123,30 @@ fn small_jumps_of_odometry_are_believed_or_not_and_the_path_is_good() {
     }
 }
 
+/// A scale that is off is told with the factor, within its standard errors, and one that wheels have is not: of odometry alone, or of ranges alone.
+#[test]
+fn a_scale_by_which_scans_and_odometry_differ_is_told() {
+    let Example { log, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, SCANS);
+    for [told, ranges] in [[1.2, 1.0], [0.85, 1.0], [1.0, 1.1], [1.0, 0.8], [1.0, 1.0], [1.03, 1.0]] {
+        let mut log = log.clone();
+        let odometry: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
+        for k in 1..SCANS {
+            let Pose2 { x, y, theta } = odometry[k - 1].between(&odometry[k]);
+            log.scans[k].odometry = log.scans[k - 1].odometry.compose(&Pose2::new(told * x, told * y, theta));
+        }
+        log.scans.iter_mut().flat_map(|scan| &mut scan.ranges).for_each(|range| *range *= ranges as f32);
+        let remarks = mapped(log, 2, 1).remarks();
+        println!("odometry × {told}, ranges × {ranges}: {remarks:?}");
+        let truth: f64 = ranges / told;
+        let of_scale = remarks.iter().find_map(|remark| match remark {
+            Remark::OtherScale { times, std } => Some((times - truth).abs() < 0.02 + 4.0 * std),
+            _ => None,
+        });
+        let is_off = !(0.95..1.05).contains(&truth);
+        assert_eq!(of_scale, is_off.then_some(true), "{truth}: {remarks:?}");
+    }
+}
+
 /// One door: what is pushed scan by scan becomes what a whole log does, to the bit.
 #[test]
 fn scans_that_are_pushed_are_believed_as_those_of_a_log_are() {
