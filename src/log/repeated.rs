@@ -179,6 +179,9 @@ mod tests {
     use super::*;
     use core::ops::Range;
 
+    /// The drive from its first record to its last.
+    const WHOLE: [Range<usize>; 1] = [Range { start: 0, end: 60 }];
+
     /// The records of a drive of 60 scans, a step of odometry before each: half a metre a second, but for a rest of five scans.
     fn drive() -> Vec<[f64; 2]> {
         (0..60_i32).map(|k| [f64::from(k), 0.5 * f64::from(k - (k - 30).clamp(0, 5))]).collect()
@@ -199,7 +202,7 @@ mod tests {
     }
 
     fn plain() -> LaserLog {
-        log(&stamped(&[0..60], 0.0), |_, _| None)
+        log(&stamped(&WHOLE, 0.0), |_, _| None)
     }
 
     /// Stretches of the drive one after another; the stamps of each begin so much later than those of the one before end, or are as they were.
@@ -223,7 +226,9 @@ mod tests {
     #[test]
     fn a_stretch_that_is_written_twice_is_left_out() {
         let twice = |stretch, count| vec![Remark::Copied { stretch, count }];
-        let cases: [(&[Range<usize>], [[u32; 2]; 2], u32); 5] = [
+        /// Stretches that are written, the first one that repeats another with that one, and how many scans do.
+        type Case<'a> = (&'a [Range<usize>], [[u32; 2]; 2], u32);
+        let cases: [Case<'_>; 5] = [
             (&[0..40, 20..40, 40..60], [[41, 60], [21, 40]], 20),
             (&[0..60, 10..40], [[61, 90], [11, 40]], 30),
             (&[0..60, 0..60], [[61, 120], [1, 60]], 60),
@@ -251,7 +256,7 @@ mod tests {
             });
             assert_eq!(places(&log), places(&plain()), "{spoilt:?}");
         }
-        let mut again = log(&stamped(&[0..20], 0.0), |number, beam| match beam {
+        let mut again = log(&stamped(core::slice::from_ref(&(0..20)), 0.0), |number, beam| match beam {
             5 => Some(f32::NAN),
             _ if number == 11 => Some(1.0 + ((10 * 64 + beam) * 7919 % 7001) as f32 / 1000.0),
             _ => None,
@@ -261,8 +266,8 @@ mod tests {
 
     #[test]
     fn two_copies_of_a_drive_that_are_shuffled_are_one() {
-        let mut records = stamped(&[0..60], 0.0);
-        records.extend(stamped(&[0..60], 0.0).iter().map(|(stamp, record)| (stamp + 8.3, *record)));
+        let mut records = stamped(&WHOLE, 0.0);
+        records.extend(stamped(&WHOLE, 0.0).iter().map(|(stamp, record)| (stamp + 8.3, *record)));
         let log = log(&sorted(records, |a, b| a.0.total_cmp(&b.0)), |_, _| None);
         assert_eq!(places(&log)[0], places(&plain())[0]);
     }
@@ -313,7 +318,7 @@ mod tests {
             let copied = apart(&[0..40, 20..40, 40..60], pause);
             assert_eq!((copied.scans.len(), &places(&copied)[1]), (60, &places(&plain())[1]), "{pause} s");
             assert_eq!(apart(&[], pause).scans.len(), 60, "{pause} s");
-            assert_eq!(apart(&[0..60], pause).scans.len(), 80, "{pause} s");
+            assert_eq!(apart(&WHOLE, pause).scans.len(), 80, "{pause} s");
         }
     }
 }
