@@ -70,9 +70,9 @@ impl fmt::Display for Remark {
                 f,
                 "only the first of {scans} scans is mapped: by odometry and by what they see, the robot never moves"
             ),
-            Self::NothingMet => {
-                f.write_str("the map is empty: hardly a beam met anything within the longest range that counts")
-            }
+            Self::NothingMet => f.write_str(
+                "the map is empty: hardly a beam met anything within the longest range that counts; are ranges in metres?",
+            ),
             Self::OpenLoops { loops, time } => write!(
                 f,
                 "loops that stay open: {loops}, the last of them at {} s; what is seen there contradicts the map of before",
