@@ -1,6 +1,6 @@
 // What no paint of ours asks of tiny-skia, left out of programs. Its pipelines call one function for each stage (a blend mode, a gradient, a
 // colour space …), by its number in a table, and its strokes take any kind of curve: no optimiser can tell what is never called, 110 KB of each.
-// So it is with what the figure of a program never asks of a filter.
+// So it is with what the figure of a program never asks of a filter. And what the machine has an instruction for is no longer computed.
 import { StepError } from './lib.mjs'
 
 /**
@@ -27,6 +27,12 @@ const unasked = [
 const unaskedOf = { smoothing: [/^fastslam::map::landmarks::association::Associated::by_likelihood\b/] }
 
 /**
+ * What the crate libm computes bit by bit, as stable Rust gives it no access to the instruction that WebAssembly has. IEEE 754 leaves no bit of
+ * it open. @type {Record<string, 'sqrt' | 'floor' | 'ceil' | 'trunc'>}
+ */
+const instructions = { sqrt: 'sqrt', sqrtf: 'sqrt', floor: 'floor', floorf: 'floor', ceil: 'ceil', ceilf: 'ceil', trunc: 'trunc', truncf: 'trunc' }
+
+/**
  * A program with empty functions in the place of those: one that is called all the same stops it there, as a panic does. Its functions
  * still bear the names that Rust gave them; of what comes out they do not.
  * @param {Uint8Array} bytes @param {string} [program] its name
@@ -48,6 +54,13 @@ export async function withoutUnasked(bytes, program = '') {
   for (const { name, params, results } of [...stages.filter(({ kept }) => !kept), ...left]) {
     module.removeFunction(name)
     module.addFunction(name, params, results, [], module.unreachable())
+  }
+  for (const { name, params, results } of functions) {
+    const instruction = instructions[/^libm::math::\w+::(\w+)::h[0-9a-f]+$/.exec(name)?.[1] ?? '']
+    if (!instruction) continue
+    const of = params === binaryen.f64 ? module.f64 : module.f32
+    module.removeFunction(name)
+    module.addFunction(name, params, results, [], of[instruction](module.local.get(0, params)))
   }
   const without = module.emitBinary()
   module.dispose()
