@@ -12,6 +12,7 @@ import { chapterPrograms } from './registry.mjs'
 export const checks = [
   ['Format (cargo fmt)', () => run('cargo', ['fmt', '--all', '--check'], { hint: 'cargo fmt --all puts it right.' })],
   ['Lints (clippy)', () => run('cargo', ['clippy', '--workspace', '--all-targets', '--', '-D', 'warnings'])],
+  ['Lints of a crate by itself (clippy)', clippyAlone],
   ['Lints for WebAssembly (clippy)', clippyWasm],
   ['Documentation (cargo doc)', () => run('cargo', ['doc', '--workspace', '--no-deps', '--all-features'], { env: { RUSTDOCFLAGS: '-D warnings' } })],
   ['Public items of the filters', checkItems],
@@ -23,6 +24,11 @@ export const checks = [
   ['Links', async () => (await import('./site.mjs')).checkLinks()],
   ['HTML (html-validate)', async () => (await import('./site.mjs')).checkHtml()],
 ]
+
+/** In the workspace a crate has the features that any other crate asks of it: what only they use is seen by these runs alone. */
+async function clippyAlone() {
+  for (const crate of ['fastslam', 'fastslam-log', 'fastslam-lab']) await run('cargo', ['clippy', '-p', crate, '--lib', '--', '-D', 'warnings'])
+}
 
 /** Code behind cfg(target_arch = "wasm32") is seen by these runs alone, and by the last of them what a program carries that only another needs. */
 async function clippyWasm() {
