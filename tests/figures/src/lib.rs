@@ -404,17 +404,17 @@ pub fn put_readout(digest: &mut Digest, name: &str, value: Option<f64>, text: &s
     digest.write(text.as_bytes());
 }
 
-/// Every readout of every step of a figure, and what is said of it, as a fingerprint.
+/// Every readout of every step of a figure, and what is said of it, as a fingerprint: as a page shows it.
 pub fn readouts(tag: &str, query: &str) -> Digest {
     let mut figure = figure(tag, query);
     let mut digest = Digest::new();
     for step in 0..=figure.model().step_count() {
         figure.model_mut().seek(step);
         figure.model_mut().settle();
-        for Readout { name, value, text, .. } in figure.model().readouts() {
+        for Readout { name, value, text, .. } in figure.readouts() {
             put_readout(&mut digest, name, value, &text);
         }
-        digest.write(figure.model().describe().as_bytes());
+        digest.write(figure.describe().as_bytes());
     }
     digest
 }
