@@ -173,7 +173,7 @@ test('a point that moves in two directions tells both of them and their limits, 
   for (const [name, least, most, now, orientation] of [['Landmark x', '-0.1', '2.8', '2.7', null], ['Landmark y', '-0.75', '0.75', '-0.1', 'vertical']] as const) {
     const slider = group.getByRole('slider', { name })
     expect(await slider.evaluate((input: HTMLInputElement) => [input.min, input.max, input.value, input.getAttribute('aria-orientation')])).toEqual([least, most, now, orientation])
-    await expect(slider).toHaveAttribute('aria-valuetext', '2.7 m ahead of the start, -0.1 m to the left')
+    await expect(slider).toHaveAttribute('aria-valuetext', '2.7 m ahead of the start, −0.1 m to the left')
     await expect(slider).toHaveAccessibleDescription(/Arrow keys/)
   }
   // As a screen reader sets it: by the value, of one direction alone.

@@ -9,7 +9,6 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const open = (page: Page, query?: string) => new Figure(page, 'fastslam-em').alone(query && `#fastslam-em?${query}`)
 
-const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
 
 const chip = async (figure: Figure, name: RegExp) => {
   await figure.element.getByRole('button', { name }).first().click()
@@ -20,10 +19,10 @@ test('as it opens, the map has every door and the particles hold both answers; b
   const figure = await open(page)
   await expect(figure.sentence).toContainText('After iteration 20 nothing changes any more: the map has 3 doors')
   await expect(figure.sentence).toContainText('The particles keep both answers')
-  expect(await number(figure, 'put_down')).toBeCloseTo(3.9, 1)
-  expect(await number(figure, 'again_em')).toBe(0)
-  expect(await number(figure, 'again')).toBeGreaterThan(5)
-  expect(await number(figure, 'log_posterior')).toBeGreaterThanOrEqual(await number(figure, 'best'))
+  expect(await figure.number('put_down')).toBeCloseTo(3.9, 1)
+  expect(await figure.number('again_em')).toBe(0)
+  expect(await figure.number('again')).toBeGreaterThan(5)
+  expect(await figure.number('log_posterior')).toBeGreaterThanOrEqual(await figure.number('best'))
   expect(await brokenRules(page, { of: 'fastslam-em' })).toEqual([])
 
   // How much future: without any there are several places, and with more of it fewer.
@@ -41,32 +40,32 @@ test('as it opens, the map has every door and the particles hold both answers; b
 
   await chip(figure, /From the first guess/)
   await expect(figure.sentence).toContainText('The first guess: a map with 3 doors')
-  let before = await number(figure, 'log_posterior')
+  let before = await figure.number('log_posterior')
   for (const [steps, what] of [[1, 'forward'], [4, 'backward'], [4, 'forward times backward'], [1, 'After iteration 1']] as const) {
     for (let i = 0; i < steps; i++) await figure.step.click()
     await figure.settled()
     await expect(figure.sentence).toContainText(what)
-    const now = await number(figure, 'log_posterior')
+    const now = await figure.number('log_posterior')
     expect(now).toBeGreaterThanOrEqual(before)
     before = now
   }
-  expect(await number(figure, 'iteration')).toBe(1)
+  expect(await figure.number('iteration')).toBe(1)
 })
 
 test('a folding guess ends lower, and one mark unfolds it, by keyboard and by mouse; with wheels twice as bad, EM mapping is sure of what the particles are not', async ({ page }) => {
   const figure = await open(page)
-  const right = await number(figure, 'log_posterior')
+  const right = await figure.number('log_posterior')
   await chip(figure, /A guess that folds the corridor/)
   await expect(figure.sentence).toContainText('the map has 2 doors')
   await expect(figure.sentence).toContainText('passed the same two doors again')
-  expect(await number(figure, 'again_em')).toBe(100)
-  expect(await number(figure, 'log_posterior')).toBeLessThan(right - 5)
+  expect(await figure.number('again_em')).toBe(100)
+  expect(await figure.number('log_posterior')).toBeLessThan(right - 5)
   await figure.openSettings()
   await figure.grasp('mark-3').focus()
   for (let i = 0; i < 3; i++) await page.keyboard.press('Shift+ArrowUp')
   await figure.settled()
   await expect(figure.box('mark-3')).toHaveValue('8.2')
-  expect(await number(figure, 'log_posterior')).toBe(right)
+  expect(await figure.number('log_posterior')).toBe(right)
   await expect(figure.element.getByRole('button', { name: 'A guess that folds the corridor (reached)' })).toBeVisible()
   // And back by the mouse, onto the second mark.
   const [third, second] = [await figure.handle('mark-3').boundingBox(), await figure.handle('mark-2').boundingBox()]
@@ -76,15 +75,15 @@ test('a folding guess ends lower, and one mark unfolds it, by keyboard and by mo
   await page.mouse.move(middle(third)[0], middle(second)[1], { steps: 4 })
   await page.mouse.up()
   await figure.settled()
-  expect(await number(figure, 'doors')).toBe(2)
+  expect(await figure.number('doors')).toBe(2)
 
   await chip(figure, /Wheels twice as bad/)
-  expect(await number(figure, 'again_em')).toBe(100)
-  const again = await number(figure, 'again')
+  expect(await figure.number('again_em')).toBe(100)
+  const again = await figure.number('again')
   expect(again).toBeGreaterThan(5)
   expect(again).toBeLessThan(95)
   await chip(figure, /Begin with a blank map/)
-  expect(await number(figure, 'doors')).toBe(3)
+  expect(await figure.number('doors')).toBe(3)
   await figure.element.evaluate(element => element.setAttribute('mark-1', '11'))
   await expect(figure.alert).toContainText('mark-1 = "11": must be')
 })
@@ -123,10 +122,10 @@ test('exercise 9: where EM mapping has the robot put down is guessed in its stri
   await figure.toggle('run').click()
   await figure.settled()
   await expect(figure.sentence).toContainText('was the other answer')
-  expect(await number(figure, 'again_em')).toBe(100)
-  expect(await number(figure, 'put_down')).toBeLessThan(2.7)
+  expect(await figure.number('again_em')).toBe(100)
+  expect(await figure.number('put_down')).toBeLessThan(2.7)
   // (b): the others, and what no peak tells.
   expect((await figure.readouts())['again_others']).toMatch(/^\d+ of 20/)
-  expect(await number(figure, 'best')).toBeGreaterThan((await number(figure, 'log_posterior')) + 5)
-  expect(await number(figure, 'again')).toBeGreaterThan(5)
+  expect(await figure.number('best')).toBeGreaterThan((await figure.number('log_posterior')) + 5)
+  expect(await figure.number('again')).toBeGreaterThan(5)
 })

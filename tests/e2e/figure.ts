@@ -160,6 +160,11 @@ export class Figure {
     return Object.fromEntries(entries) as Record<string, string>
   }
 
+  /** The number that a readout begins with. */
+  async number(name: string): Promise<number> {
+    return Number.parseFloat((await this.readouts())[name]!.replace('−', '-'))
+  }
+
   /** A fingerprint of the pixels. */
   async picture(): Promise<number> {
     return this.canvas.evaluate((canvas: HTMLCanvasElement) => {

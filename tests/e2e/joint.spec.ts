@@ -9,32 +9,31 @@ test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 const open = (page: Page, query?: string) => new Figure(page, 'fastslam-joint').alone(query && `#fastslam-joint?${query}`)
 
-const number = async (figure: Figure, name: string) => Number.parseFloat((await figure.readouts())[name]!)
 
 test('as it opens, the sampled map has run out of particles and the computed one has not; without odometry noise a thousand last to the seventh landmark, by the slider and by the handle', async ({ page }) => {
   const figure = await open(page)
   await expect(figure.play).toBeHidden()
   await expect(figure.sentence).toContainText('After 24 landmarks, 1000 particles with sampled maps are worth 1.2')
-  expect(await number(figure, 'ess_computed')).toBeGreaterThan(500)
-  expect(await number(figure, 'removed')).toBeGreaterThan(99.9)
-  expect(await number(figure, 'repeats')).toBe(40)
+  expect(await figure.number('ess_computed')).toBeGreaterThan(500)
+  expect(await figure.number('removed')).toBeGreaterThan(99.9)
+  expect(await figure.number('repeats')).toBe(40)
   expect(await brokenRules(page, { of: 'fastslam-joint' })).toEqual([])
 
   // Exercise 2 (c).
   await figure.goTo('odometry=0&landmarks=5')
-  expect(await number(figure, 'rho')).toBeCloseTo(2.79, 2)
+  expect(await figure.number('rho')).toBeCloseTo(2.79, 2)
   await figure.grasp('landmarks').focus()
   await page.keyboard.press('ArrowRight')
   await page.keyboard.press('ArrowRight')
   await figure.settled()
   await expect(figure.box('landmarks')).toHaveValue('7')
-  expect(await number(figure, 'predicted_sampled')).toBeLessThan(1)
-  expect(await number(figure, 'ess_computed')).toBe(1000)
+  expect(await figure.number('predicted_sampled')).toBeLessThan(1)
+  expect(await figure.number('ess_computed')).toBe(1000)
   // Back by the box: the numbers are those of before, and nothing was run again.
   await figure.box('landmarks').fill('6')
   await figure.box('landmarks').press('Enter')
   await figure.settled()
-  expect(await number(figure, 'predicted_sampled')).toBeGreaterThan(1)
+  expect(await figure.number('predicted_sampled')).toBeGreaterThan(1)
 })
 
 test('exercise 2 (c): a guess is dragged, nothing tells the answer before, and the line stands beside it then', async ({ page }) => {
@@ -63,7 +62,7 @@ test('exercise 2 (c): a guess is dragged, nothing tells the answer before, and t
   await figure.toggle('run').click()
   await figure.settled()
   await expect(figure.sentence).toContainText(`worth less than one from 7 landmarks on; the guess was ${guess - 1}`)
-  expect(await number(figure, 'rho')).toBeCloseTo(2.79, 2)
+  expect(await figure.number('rho')).toBeCloseTo(2.79, 2)
 })
 
 // As many as a reader can ask for, and what `npm test` has time for.
@@ -89,7 +88,7 @@ for (const [particles, repeats, more] of [['5000', 12, {}], ['20000', 6, breadth
     await figure.box('particles').fill(particles)
     await figure.box('particles').press('Enter')
     await figure.settled()
-    expect(await number(figure, 'repeats')).toBe(repeats)
+    expect(await figure.number('repeats')).toBe(repeats)
     const [frames, shown] = await page.evaluate(() => {
       const { slices, shown } = window as Window & { slices?: number; shown?: number[] }
       return [slices!, shown!]

@@ -69,7 +69,7 @@ test('the landmark is dragged by the mouse, with a picture at every frame, and m
     await expect(figure.box('landmark-y')).toHaveValue(y)
   }
   await expect(figure.grasp('landmark')).toBeFocused()
-  await expect(figure.grasp('landmark')).toHaveAttribute('aria-valuetext', '2.155 m ahead of the start, -0.05 m to the left')
+  await expect(figure.grasp('landmark')).toHaveAttribute('aria-valuetext', '2.155 m ahead of the start, −0.05 m to the left')
 
   const now = await middle(figure, 'landmark')
   await page.mouse.move(now.x, now.y)
