@@ -16,12 +16,11 @@ const ENOUGH: usize = 10;
 /// Reads the headings of a log, or of its beginning or its end, as degrees, if that is what they are.
 pub(super) fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
     let Some(degrees) = in_degrees(told) else { return };
-    log.notes.remarks.push(match degrees.len() == told.len() {
-        true => Remark::HeadingsInDegrees,
-        false => {
-            let [from, to] = [degrees.start, degrees.end - 1].map(|k| log.odometry[k].0);
-            Remark::SomeHeadingsInDegrees { from, to }
-        }
+    log.notes.remarks.push(if degrees.len() == told.len() {
+        Remark::HeadingsInDegrees
+    } else {
+        let [from, to] = [degrees.start, degrees.end - 1].map(|k| log.odometry[k].0);
+        Remark::SomeHeadingsInDegrees { from, to }
     });
     let mut poses = log.odometry.iter_mut().zip(told).enumerate();
     let put = |k: usize, pose: &mut Pose2, heading: f64| {

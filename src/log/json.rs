@@ -86,15 +86,12 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     if ranges.is_empty() {
         return Err(LogProblem::JsonNoRanges);
     }
-    let told = |pose: [Number; 3]| pose.map(|Number(value)| value);
-    let pose = |pose| {
-        let [x, y, theta] = told(pose);
-        Pose2::new(x, y, theta)
-    };
+    let [odometry, laser] = [line.odometry, line.laser].map(|pose| pose.map(|pose| pose.map(|Number(value)| value)));
+    let pose = |[x, y, theta]: [f64; 3]| Pose2::new(x, y, theta);
     let scan = LaserScan {
         time,
-        odometry: line.odometry.map_or(Pose2::default(), pose),
-        robot_from_laser: line.laser.map_or(Pose2::default(), pose),
+        odometry: odometry.map_or(Pose2::default(), pose),
+        robot_from_laser: laser.map_or(Pose2::default(), pose),
         first_angle,
         angle_step,
         max_range: line.range_max.map(|Number(range)| range).filter(|range| *range > 0.0),
@@ -103,8 +100,8 @@ pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     if scan.validate().is_err() {
         return Err(LogProblem::JsonFar);
     }
-    Ok(match line.odometry {
-        Some(pose) => Told::Scan(scan, told(pose)),
+    Ok(match odometry {
+        Some(told) => Told::Scan(scan, told),
         None => Told::Scan(LaserScan { odometry: NOWHERE, ..scan }, [0.0; 3]),
     })
 }

@@ -3,7 +3,7 @@
 use lexical_parse_float::FromLexical;
 
 /// The number nearest to what is written, as std's `parse` reads it: with a sign or none, digits with a point anywhere or none, an exponent or
-/// none; `inf`, `infinity` and `nan` in any case. It comes from a crate that needs no table of powers of ten: std's takes a page 12 KB.
+/// none; `inf`, `infinity` and `nan` in any case. It comes from a crate that needs no table of powers of ten: std's makes the program of a page 8 KB heavier.
 pub(crate) fn number(text: &str) -> Option<f64> {
     f64::from_lexical(text.as_bytes()).ok()
 }

@@ -67,7 +67,7 @@ impl LaserLog {
 }
 
 /// What repeats earlier things in a row: the index of each, and that of what it repeats.
-type Copy = Vec<(usize, usize)>;
+type Repeat = Vec<(usize, usize)>;
 
 /// Bits that are the same for ranges that are equal, and for all that are no number.
 fn bits(ranges: &[f32]) -> impl Iterator<Item = u32> {
@@ -86,15 +86,15 @@ fn hash(words: impl Iterator<Item = u32>) -> u64 {
 }
 
 /// What repeats earlier things, by their keys. Things in a row that are the same count as one: a robot that stands repeats nothing.
-fn copies(keys: &[u64]) -> Vec<Copy> {
+fn copies(keys: &[u64]) -> Vec<Repeat> {
     let heads: Vec<usize> = (0..keys.len()).filter(|k| *k == 0 || keys[*k] != keys[*k - 1]).collect();
     let key = |p: &usize| keys[heads[*p]];
     let mut firsts: Vec<usize> = (0..heads.len()).collect();
     for same in sorted(firsts.clone(), |a, b| key(a).cmp(&key(b))).chunk_by(|a, b| key(a) == key(b)) {
         same.iter().for_each(|p| firsts[*p] = same[0]);
     }
-    let (mut open, mut done) = (Vec::<Copy>::new(), Vec::new());
-    let mut close = |copy: &mut Copy| {
+    let (mut open, mut done) = (Vec::<Repeat>::new(), Vec::new());
+    let mut close = |copy: &mut Repeat| {
         if copy.len() >= IN_A_ROW {
             done.push(core::mem::take(copy));
         }
@@ -111,7 +111,7 @@ fn copies(keys: &[u64]) -> Vec<Copy> {
             continue;
         }
         // What follows, if it was there before, or else what is a little farther on.
-        let next = |copy: &mut Copy| {
+        let next = |copy: &mut Repeat| {
             let (q, j) = copy[copy.len() - 1];
             let along = j + p - q;
             let near = (1..=APART).contains(&first.wrapping_sub(j)).then_some(first);
@@ -127,8 +127,8 @@ fn copies(keys: &[u64]) -> Vec<Copy> {
     for (p, j) in done.iter().flatten() {
         (repeats[*p], is_repeated[*j]) = (true, true);
     }
-    let whole = |copy: Copy| {
-        let mut whole = Copy::new();
+    let whole = |copy: Repeat| {
+        let mut whole = Repeat::new();
         let (mut q, mut j) = copy[0];
         for (p, original) in copy {
             // What was spoilt between two that repeat.
@@ -158,14 +158,14 @@ fn moved(from: Pose2, to: Pose2) -> f64 {
 }
 
 /// Whether the odometry jumps to one of these from what is none of them. Where there are no poses, or they never move, there is nothing to go on.
-fn jumps(copy: &Copy, pose: &dyn Fn(usize) -> Pose2) -> bool {
+fn jumps(copy: &Repeat, pose: &dyn Fn(usize) -> Pose2) -> bool {
     let step = |a: usize, b: usize| moved(pose(a), pose(b));
     let longest = copy.windows(2).map(|pair| step(pair[0].1, pair[1].1)).fold(0.0, f64::max);
     longest == 0.0 || copy.iter().any(|(k, _)| step(*k - 1, *k) > JUMP * longest)
 }
 
 /// Leaves these things out, and returns how many there were.
-fn leave_out<T>(things: &mut Vec<T>, copies: &[Copy]) -> u32 {
+fn leave_out<T>(things: &mut Vec<T>, copies: &[Repeat]) -> u32 {
     let mut stays = vec![true; things.len()];
     copies.iter().flatten().for_each(|(k, _)| stays[*k] = false);
     let mut flags = stays.iter();

@@ -71,7 +71,7 @@ impl fmt::Display for Remark {
                 "only the first of {scans} scans is mapped: by odometry and by what they see, the robot never moves"
             ),
             Self::NothingMet => f.write_str(
-                "the map is empty: hardly a beam met anything within the longest range that counts; are ranges in metres?",
+                "the map is empty: hardly a beam met anything within the longest range that counts; are the ranges in metres?",
             ),
             Self::OpenLoops { loops, time } => write!(
                 f,
