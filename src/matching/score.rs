@@ -3,10 +3,11 @@
 use super::{Likelihood, Score, ScoreNear};
 use crate::error::{Range, SettingError};
 use crate::geometry::Pose2;
-use crate::map::grid::{BLOCK, Grid, LocalMap, MAX_DISTANCE, NdtField, Nearest, UNIT};
+use crate::map::grid::{Grid, LANES, LocalMap, MAX_DISTANCE, NdtField, Nearest, UNIT};
 use crate::ops;
 use crate::sensor::Scan;
 use core::cell::RefCell;
+use wide::f64x4;
 
 /// What an end point is compared with.
 #[derive(
@@ -106,8 +107,11 @@ impl ScanModel {
     ) -> f64 {
         let floor = floor / self.temper;
         let mut sum = 0.0;
-        for block in self.blocks(map, world_from_robot, scan) {
-            block.for_each(|log_score| sum += log_score);
+        let ends = ends(world_from_robot);
+        for beams in scan.hits.chunks(LANES) {
+            for log_score in self.log_scores(map, beams, &ends).iter().take(beams.len()) {
+                sum += log_score;
+            }
             if sum <= floor {
                 return f64::NEG_INFINITY;
             }
@@ -118,52 +122,47 @@ impl ScanModel {
     /// What each beam that met something adds to the sum of [`Self::log_score`], before it is tempered \[nats\].
     pub(crate) fn log_beams<const CELLS_PER_NDT: usize>(
         &self,
-        grid: &Grid<CELLS_PER_NDT>,
+        mut grid: &Grid<CELLS_PER_NDT>,
         world_from_robot: &Pose2,
         scan: &Scan,
     ) -> Vec<f64> {
-        self.blocks(&mut &*grid, world_from_robot, scan).flatten().collect()
+        let ends = ends(world_from_robot);
+        let few = |beams: &[[f64; 2]]| self.log_scores(&mut grid, beams, &ends).into_iter().take(beams.len());
+        scan.hits.chunks(LANES).flat_map(few).collect()
     }
 
-    /// The same for a block of beams after the other.
-    fn blocks<'a>(
-        &'a self,
-        map: &'a mut impl NdtField,
-        world_from_robot: &Pose2,
-        scan: &'a Scan,
-    ) -> impl Iterator<Item = impl Iterator<Item = f64>> {
-        let (sin, cos) = ops::sin_cos(world_from_robot.theta);
-        let (origin, ahead, left) = ([world_from_robot.x, world_from_robot.y], [cos, sin], [-sin, cos]);
-        // Not zeros: in WebAssembly they are a `memory.fill`, a call of the engine.
-        let mut ends = [origin; BLOCK];
-        scan.hits.chunks(BLOCK).map(move |beams| {
-            for ([x, y], end) in beams.iter().zip(&mut ends) {
-                *end = [0, 1].map(|k: usize| origin[k] + ahead[k] * x + left[k] * y);
-            }
-            self.log_scores(map, &ends, beams.len()).into_iter().take(beams.len())
-        })
-    }
-
-    /// What each of the first `count` of these end points \[m\] adds to the sum.
+    /// What each of these few beams adds to the sum; of lanes that they leave free nothing of any meaning is said.
     #[inline]
-    fn log_scores(&self, map: &mut impl NdtField, ends: &[[f64; 2]; BLOCK], count: usize) -> [f64; BLOCK] {
+    fn log_scores(
+        &self,
+        map: &mut impl NdtField,
+        beams: &[[f64; 2]],
+        ends: impl Fn(&[[f64; 2]; LANES]) -> [f64x4; 2],
+    ) -> [f64; LANES] {
+        let filled;
+        let lanes = match beams.first_chunk() {
+            Some(lanes) => lanes,
+            None => {
+                filled = core::array::from_fn(|k| beams.get(k).copied().unwrap_or_default());
+                &filled
+            }
+        };
+        let ends = ends(lanes);
         if self.matcher == Matcher::Cell {
-            return ends.map(|end| self.log_cell(map.units_at(end)));
+            let [x, y] = ends.map(f64x4::to_array);
+            return core::array::from_fn(|k| self.log_cell(map.units_at([x[k], y[k]])));
         }
-        let Nearest { d2, units } = map.nearest_ndt(ends, count);
-        let cells = units.map(|units| self.log_cell(units));
+        let Nearest { d2, units } = map.nearest_ndt(ends);
+        let cells = f64x4::new(units.map(|units| self.log_cell(units)));
         match self.kernel {
-            Kernel::Gaussian => core::array::from_fn(|k| {
-                let (ndt, cell) = (-0.5 * f64::from(d2[k]), cells[k]);
-                // Not `f64::max`: a call of a library on WebAssembly, which costs a fourteenth of a lap.
-                if ndt > cell { ndt } else { cell }
-            }),
-            Kernel::Robust { most } => core::array::from_fn(|k| {
+            Kernel::Gaussian => (f64x4::new(d2.to_array().map(f64::from)) * -0.5).fast_max(cells).to_array(),
+            Kernel::Robust { most } => {
                 // −c d² / (d² + 2 c), with one division in the precision in which distributions are kept.
                 let most = most as f32;
-                let ndt = 2.0 * most * most / (d2[k] + 2.0 * most) - most;
-                if d2[k] < f32::INFINITY { f64::from(ndt) } else { cells[k] }
-            }),
+                let ndt = 2.0 * most * most / (d2 + 2.0 * most) - most;
+                let (d2, ndt, cells) = (d2.to_array(), ndt.to_array(), cells.to_array());
+                core::array::from_fn(|k| if d2[k] < f32::INFINITY { f64::from(ndt[k]) } else { cells[k] })
+            }
         }
     }
 
@@ -171,6 +170,17 @@ impl ScanModel {
     #[inline]
     fn log_cell(&self, units: i8) -> f64 {
         self.log_cell[(i32::from(units) + UNKNOWN) as usize]
+    }
+}
+
+/// Where beams end \[m\] of which this is given in the robot's frame.
+#[inline]
+fn ends(world_from_robot: &Pose2) -> impl Fn(&[[f64; 2]; LANES]) -> [f64x4; 2] {
+    let (sin, cos) = ops::sin_cos(world_from_robot.theta);
+    let (origin, ahead, left) = ([world_from_robot.x, world_from_robot.y], [cos, sin], [-sin, cos]);
+    move |beams| {
+        let [x, y] = [0, 1].map(|k: usize| f64x4::new(beams.map(|beam| beam[k])));
+        [0, 1].map(|k: usize| origin[k] + ahead[k] * x + left[k] * y)
     }
 }
 

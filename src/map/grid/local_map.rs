@@ -1,8 +1,9 @@
 //! The part of a grid around a robot, for a matcher that looks at it thousands of times in one step.
 
-use super::quad::{Quad, least};
+use super::quad::{Apart, Corners, Quad, least};
 use super::tile::{MAX_DISTANCE, SHIFT, TILE};
-use super::{BLOCK, CellRect, Grid, NdtField, Nearest, fast_floor};
+use super::{CellRect, Grid, LANES, NdtField, Nearest, fast_floor};
+use wide::{CmpGt, f64x4, i32x4};
 
 /// Farthest from the robot that anything is kept for \[m\]; what lies beyond is looked up in the grid.
 const RADIUS: f64 = 12.0;
@@ -13,9 +14,11 @@ pub(crate) struct LocalMap<const CELLS_PER_NDT: usize> {
     grid: Grid<CELLS_PER_NDT>,
     /// In NDT cells.
     rect: CellRect,
-    /// All that were asked for, in that order.
+    /// Columns and rows of it.
+    size: [u32; 2],
+    /// One for each lane, which a point outside the rectangle is compared with, and then all within it, in the order in which they were asked for.
     quads: Vec<Quad>,
-    /// By the NDT cell at its lower left: how many quads there were when one was added, or 0 for none yet.
+    /// By the NDT cell at its lower left: the index of a quad, or 0 where none was asked for yet.
     places: Vec<u32>,
     /// The distance field; empty where there is none.
     distances: Vec<u8>,
@@ -35,7 +38,8 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
             j1: clip(j.saturating_add(reach + TILE), known.j0, known.j1),
         };
         let places = vec![0; rect.width() * rect.height()];
-        Self { grid, rect, quads: Vec::new(), places, distances: Vec::new() }
+        let size = [rect.width(), rect.height()].map(|count| count as u32);
+        Self { grid, rect, size, quads: vec![Quad::UNKNOWN; LANES], places, distances: Vec::new() }
     }
 
     /// The same with the distance field, if the grid keeps one.
@@ -60,30 +64,55 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
         self
     }
 
-    /// The quad of the cell at its lower left, if that is near.
+    /// The indices of the quads of these corners.
     #[inline]
-    fn quad(&mut self, i: i32, j: i32) -> Option<&Quad> {
-        let place = self.place(i, j)?;
-        if self.places[place] == 0 {
-            self.add_quad(i, j, place);
+    fn quads_at(&mut self, corners: &Corners) -> [usize; LANES] {
+        let [i, j] = corners.cell;
+        let [columns, rows] = self.size.map(|count| i32x4::splat(count as i32));
+        let (column, row) = (i - self.rect.i0, j - self.rect.j0);
+        let none = i32x4::splat(-1);
+        let inside = column.cmp_gt(none) & row.cmp_gt(none) & columns.cmp_gt(column) & rows.cmp_gt(row);
+        if !inside.all() {
+            return self.quads_anywhere(corners);
         }
-        Some(&self.quads[self.places[place] as usize - 1])
+        (row * columns + column).to_array().map(|place| {
+            let quad = self.places[place as usize] as usize;
+            if quad == 0 { self.add_quad(place as usize) } else { quad }
+        })
+    }
+
+    /// The same where some of them may be outside the rectangle.
+    #[cold]
+    #[inline(never)]
+    fn quads_anywhere(&mut self, corners: &Corners) -> [usize; LANES] {
+        let [i, j] = corners.cell.map(i32x4::to_array);
+        core::array::from_fn(|k| match self.place(i[k], j[k]) {
+            Some(place) if self.places[place] == 0 => self.add_quad(place),
+            Some(place) => self.places[place] as usize,
+            None => {
+                self.quads[k] = self.grid.quad(i[k], j[k]);
+                k
+            }
+        })
     }
 
     /// Apart, because the loop that asks for quads is better without it.
     #[cold]
     #[inline(never)]
-    fn add_quad(&mut self, i: i32, j: i32, place: usize) {
-        self.quads.push(self.grid.quad(i, j));
-        self.places[place] = self.quads.len() as u32;
+    fn add_quad(&mut self, place: usize) -> usize {
+        let (row, column) = (place as i32 / self.size[0] as i32, place as i32 % self.size[0] as i32);
+        self.quads.push(self.grid.quad(self.rect.i0 + column, self.rect.j0 + row));
+        self.places[place] = self.quads.len() as u32 - 1;
+        self.quads.len() - 1
     }
 
     /// Of an NDT cell in the rectangle.
     #[inline]
     fn place(&self, i: i32, j: i32) -> Option<usize> {
-        let (column, row) = (i.wrapping_sub(self.rect.i0), j.wrapping_sub(self.rect.j0));
-        let (column, row) = (column as u32 as usize, row as u32 as usize);
-        (column < self.rect.width() && row < self.rect.height()).then(|| row * self.rect.width() + column)
+        let [columns, rows] = self.size;
+        // Unsigned, a column left of the first is a large number: one comparison for each axis.
+        let (column, row) = (i.wrapping_sub(self.rect.i0) as u32, j.wrapping_sub(self.rect.j0) as u32);
+        (column < columns && row < rows).then(|| (row * columns + column) as usize)
     }
 
     /// The distance field \[NDT cells\] at a point given in NDT cells: 0 where an end point fell, [`MAX_DISTANCE`] where none fell near.
@@ -97,7 +126,7 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
     /// How many quads were put together.
     #[cfg(test)]
     pub fn quad_count(&self) -> usize {
-        self.quads.len()
+        self.quads.len() - LANES
     }
 
     /// NDT cells a metre.
@@ -111,21 +140,13 @@ impl<const CELLS_PER_NDT: usize> NdtField for LocalMap<CELLS_PER_NDT> {
         (&self.grid).units_at(point)
     }
 
-    fn nearest_ndt(&mut self, points: &[[f64; 2]; BLOCK], count: usize) -> Nearest {
-        let size = self.grid.ndt_size as f32;
-        let corners = points.map(|point| self.grid.corner(point));
-        let (mut d2, mut units) = ([[f32::INFINITY; 4]; BLOCK], [0; BLOCK]);
-        for (k, corner) in corners.iter().enumerate().take(count) {
-            let far;
-            let quad = match self.quad(corner.i, corner.j) {
-                Some(quad) => quad,
-                None => {
-                    far = self.grid.quad(corner.i, corner.j);
-                    &far
-                }
-            };
-            (d2[k], units[k]) = (quad.mahalanobis2(corner, size), quad.units_at(corner));
-        }
-        Nearest { d2: d2.map(least), units }
+    #[inline]
+    fn nearest_ndt(&mut self, points: [f64x4; 2]) -> Nearest {
+        let (corners, apart) = (self.grid.corners(points), Apart::new(self.grid.ndt_size as f32));
+        let [a, b, c, d] = self.quads_at(&corners);
+        // One after the other and not in a loop, in which what is found would go through memory.
+        let at = |quad: usize, lane| self.quads[quad].at(lane, &corners, &apart);
+        let (a, b, c, d) = (at(a, 0), at(b, 1), at(c, 2), at(d, 3));
+        Nearest { d2: least([a.0, b.0, c.0, d.0]), units: [a.1, b.1, c.1, d.1] }
     }
 }

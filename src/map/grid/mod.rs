@@ -25,7 +25,7 @@ mod saved;
 mod tile;
 
 pub(crate) use local_map::LocalMap;
-pub(crate) use ndt_field::{BLOCK, NdtField, Nearest};
+pub(crate) use ndt_field::{LANES, NdtField, Nearest};
 pub(crate) use tile::{MAX_DISTANCE, UNIT};
 use tile::{NdtCell, TILE};
 
@@ -352,12 +352,13 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     }
 }
 
+/// 1.5 · 2⁵²: adding it leaves no bits for a fraction, and the integer in the lowest bits.
+const SHIFT: f64 = 6_755_399_441_055_744.0;
+
 /// ⌊x⌋, or the integer below where x is an odd integer: the rounding of an addition does the work, in a third of the
 /// instructions of [`floor`]. Beyond the range of an `i32` the answer is any number, which is a cell like any other.
 #[inline]
 fn fast_floor(x: f64) -> i32 {
-    /// 1.5 · 2⁵²: adding it leaves no bits for a fraction, and the integer in the lowest bits.
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
     (x - 0.5 + SHIFT).to_bits() as i32
 }
 

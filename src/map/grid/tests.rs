@@ -5,6 +5,7 @@ mod drawn;
 use super::*;
 use crate::ops;
 use crate::sensor::BeamSensor;
+use wide::{f64x4, i32x4};
 
 const MODEL: GridModel = GridModel {
     cell_size: 0.3,
@@ -208,8 +209,8 @@ fn a_distribution_has_the_moments_of_its_hits() {
 
 /// What a grid says of one point.
 fn nearest<const CELLS_PER_NDT: usize>(mut grid: &Grid<CELLS_PER_NDT>, point: [f64; 2]) -> (f32, i8) {
-    let Nearest { d2, units } = grid.nearest_ndt(&[point; BLOCK], 1);
-    (d2[0], units[0])
+    let Nearest { d2, units } = grid.nearest_ndt(point.map(f64x4::splat));
+    (d2.to_array()[0], units[0])
 }
 
 #[test]
@@ -246,12 +247,45 @@ fn a_local_map_says_of_every_point_what_its_grid_says() {
         .map(|k| [f64::from(k % 200) * 0.1 - 2.013, f64::from(k / 200) * 0.1 - 2.71])
         .chain([[1e6, -1e6], [-1e6, 2.0]])
         .collect();
-    for points in points.chunks(BLOCK) {
-        let block = core::array::from_fn(|k| points.get(k).copied().unwrap_or_default());
-        let [here, there] = [local.nearest_ndt(&block, points.len()), (&grid).nearest_ndt(&block, points.len())];
-        for (k, point) in points.iter().enumerate() {
-            assert_eq!((here.d2[k].to_bits(), here.units[k]), (there.d2[k].to_bits(), there.units[k]), "{point:?}");
+    for four in points.as_chunks().0 {
+        let [here, there] = [local.nearest_ndt(lanes(four)), (&grid).nearest_ndt(lanes(four))];
+        let bits = |found: Nearest| (found.d2.to_array().map(f32::to_bits), found.units);
+        assert_eq!(bits(here), bits(there), "{four:?}");
+    }
+}
+
+/// Four points by x and by y.
+fn lanes(points: &[[f64; 2]; LANES]) -> [f64x4; 2] {
+    [0, 1].map(|k: usize| f64x4::new(points.map(|point| point[k])))
+}
+
+/// On every platform, with vector instructions or without, by this alone.
+#[test]
+fn four_lanes_have_the_bits_of_one_point_after_the_other() {
+    let mut grid = Grid::<1>::new(MODEL);
+    grid.assimilate(&Pose2::new(2.0, 1.0, 0.3), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[1.7; 90]), &());
+    let alone = |[x, y]: [f64; 2]| {
+        let at = [x, y].map(|c| c * (1.0 / 0.3) - 0.5);
+        let [i, j] = at.map(|c| c.floor() as i32);
+        let beyond = [at[0] - f64::from(i), at[1] - f64::from(j)];
+        let offset = beyond.map(|c| c as f32 * 0.3_f64 as f32);
+        let mut least = f32::INFINITY;
+        for (right, above) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+            let Some(NdtCell { mean, information: [xx, xy, yy], .. }) = grid.ndt_cell(i + right, j + above) else {
+                continue;
+            };
+            let [dx, dy] = [(0, right), (1, above)].map(|(k, step)| offset[k] - step as f32 * 0.3_f64 as f32 - mean[k]);
+            least = least.min(xx * dx * dx + 2.0 * xy * dx * dy + yy * dy * dy);
         }
+        let own = beyond.map(|c| i32::from(c >= 0.5));
+        (least.to_bits(), grid.units(i + own[0], j + own[1]))
+    };
+    let points: Vec<[f64; 2]> =
+        (0..4000).map(|k| [f64::from(k % 80) * 0.05 + 0.013, f64::from(k / 80) * 0.05 - 0.71]).collect();
+    for four in points.as_chunks().0 {
+        let Nearest { d2, units } = (&grid).nearest_ndt(lanes(four));
+        let found: [_; LANES] = core::array::from_fn(|k| (d2.to_array()[k].to_bits(), units[k]));
+        assert_eq!(found, four.map(alone), "{four:?}");
     }
 }
 
@@ -265,11 +299,12 @@ fn a_local_map_puts_each_quad_together_once() {
     let (mut asked, mut corners) = (0, Vec::new());
     for k in 0..13 {
         let pose = Pose2::new(2.0 + 0.004 * f64::from(k), 1.0, 0.3 + 0.002 * f64::from(k));
-        for points in scan.hits.chunks(BLOCK) {
-            let block = core::array::from_fn(|k| points.get(k).map_or([0.0; 2], |end| pose.transform(*end)));
-            local.nearest_ndt(&block, points.len());
-            asked += points.len();
-            corners.extend(block[..points.len()].iter().map(|point| grid.corner(*point)).map(|at| (at.i, at.j)));
+        let ends: Vec<[f64; 2]> = scan.hits.iter().map(|end| pose.transform(*end)).collect();
+        for four in ends.as_chunks().0 {
+            local.nearest_ndt(lanes(four));
+            let [i, j] = grid.corners(lanes(four)).cell.map(i32x4::to_array);
+            corners.extend(core::iter::zip(i, j));
+            asked += LANES;
         }
     }
     corners.sort_unstable();
