@@ -6,6 +6,7 @@ use crate::geometry::Pose2;
 use crate::map::grid::GridModel;
 use crate::matching::ScanModel;
 use crate::motion::Displaced;
+use crate::order::sorted;
 use crate::proposal::{CorrelativeSearch, FromScan, IncrementalWeight};
 use crate::resampling::ResamplePolicy;
 use crate::sensor::{Beam, LaserScan, longest_reading};
@@ -124,8 +125,7 @@ impl LaserMapperSettings {
     /// The same settings, with what is not said about the laser read off all scans of a log: [`Self::no_return`] is
     /// 0.97 times their [longest reading](longest_reading), as lasers write what they like for *nothing met*, and [`Self::beams`] their median.
     pub fn for_scans(self, scans: &[LaserScan]) -> Self {
-        let mut beams: Vec<u32> = scans.iter().map(|scan| scan.ranges.len() as u32).collect();
-        beams.sort_unstable();
+        let beams = sorted(scans.iter().map(|scan| scan.ranges.len() as u32).collect(), Ord::cmp);
         Self {
             no_return: self.no_return.or_else(|| Some((NOTHING_MET * longest_reading(scans)).max(0.0))),
             beams: self.beams.or_else(|| beams.get(beams.len() / 2).copied()),

@@ -3,6 +3,7 @@
 use super::{CLOSING, Closings};
 use crate::geometry::Pose2;
 use crate::ops;
+use crate::order::sorted;
 use crate::sensor::Scan;
 use std::sync::Arc;
 
@@ -64,8 +65,8 @@ impl Closings {
     pub(in crate::mapper) fn take(&mut self, scan: &Scan, driven: f64, most: usize) {
         let way = self.views.last().map_or(0.0, |last| last.way) + driven;
         let [x0, y0] = scan.origin;
-        let mut distances: Vec<f64> = scan.hits.iter().map(|[x, y]| ops::hypot(x - x0, y - y0)).collect();
-        distances.sort_unstable_by(f64::total_cmp);
+        let distances = scan.hits.iter().map(|[x, y]| ops::hypot(x - x0, y - y0)).collect();
+        let distances = sorted(distances, f64::total_cmp);
         let reach = distances.get(distances.len() * 9 / 10).copied().unwrap_or(0.0);
         let marked = core::mem::take(&mut self.marked);
         self.views.push(View { way, reach, scan: Some(KeptScan::new(scan).into()), marked });
