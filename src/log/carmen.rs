@@ -10,19 +10,19 @@
 //!
 //! Reference: the file format of CARMEN's logger, as its log files describe it in their own comments.
 
+mod others;
 mod words;
 
 use self::words::{Words, shown};
 use super::heading::in_radians;
 #[cfg(feature = "json")]
-use super::json::Told;
+use super::json::ReadLine;
 use super::number::number;
 use super::place::place;
 use super::{Field, LaserLog, LogError, LogProblem};
 use core::f64::consts::PI;
 use fastslam::error::fixed;
 use fastslam::geometry::Pose2;
-use fastslam::ops;
 use fastslam::sensor::LaserScan;
 
 /// A laser farther than this from the robot's centre \[m\] does not sit on it: then the two poses of a message are not what they
@@ -41,7 +41,18 @@ const MEGABYTES_BEFORE_SCAN: u64 = 64;
 /// # Errors
 /// As those of [`LogReader`].
 pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
-    let mut reader = LogReader::new(lenient);
+    read(LogReader::new(lenient), bytes)
+}
+
+/// The same for programs that need no JSON and are lighter without: a line of it is malformed.
+///
+/// # Errors
+/// As those of [`LogReader`].
+pub fn parse_carmen(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
+    read(LogReader::of(Reader::default(), lenient), bytes)
+}
+
+fn read(mut reader: LogReader, bytes: &[u8]) -> Result<LaserLog, LogError> {
     reader.push(bytes)?;
     reader.finish()
 }
@@ -72,7 +83,15 @@ pub struct LogReader {
 impl LogReader {
     /// For a log of which nothing has been read. A malformed line ends it with an error, or, if `lenient`, is counted and passed over.
     pub fn new(lenient: bool) -> Self {
-        Self { reader: Reader::default(), lenient, begun: Vec::new(), passing: false, lines: 0, bytes: 0 }
+        #[cfg(feature = "json")]
+        let reader = Reader { json: Some(super::json::read), ..Reader::default() };
+        #[cfg(not(feature = "json"))]
+        let reader = Reader::default();
+        Self::of(reader, lenient)
+    }
+
+    fn of(reader: Reader, lenient: bool) -> Self {
+        Self { reader, lenient, begun: Vec::new(), passing: false, lines: 0, bytes: 0 }
     }
 
     /// The next bytes, cut anywhere.
@@ -204,6 +223,9 @@ const ROBOT: &str = "ROBOTLASER1";
 
 #[derive(Default)]
 struct Reader {
+    /// What reads a line of JSON, where one may come.
+    #[cfg(feature = "json")]
+    json: Option<ReadLine>,
     log: LaserLog,
     /// `robot_frontlaser_offset`: how far ahead of the robot's centre the laser of FLASER sits \[m\].
     offset: f64,
@@ -225,6 +247,12 @@ impl Reader {
         let text = core::str::from_utf8(bytes).map_err(|_| LogProblem::Binary)?;
         let mut words = text.split_ascii_whitespace();
         let Some(kind) = words.next() else { return Ok(()) };
+        #[cfg(feature = "json")]
+        if let Some(read) = self.json
+            && kind.starts_with('{')
+        {
+            return read(text).map(|told| self.told(told));
+        }
         let of = |kind| Words { words, kind };
         match kind {
             _ if kind.starts_with('#') => {}
@@ -240,21 +268,6 @@ impl Reader {
                 self.odometry(time, pose, told);
             }
             "PARAM" => self.parameter(of("PARAM"))?,
-            #[cfg(feature = "json")]
-            _ if kind.starts_with('{') => match super::json::read(text)? {
-                Told::Scan(scan, told) => {
-                    if !scan.odometry.x.is_nan() {
-                        self.odometry(scan.time, scan.odometry, told);
-                    }
-                    self.log.notes.beyond.add(&scan.ranges, scan.max_range);
-                    self.log.scans.push(scan);
-                }
-                Told::Remark(remark) => self.log.notes.remarks.push(super::Remark::Told(remark)),
-                Told::Malformed(count, message) => {
-                    self.log.notes.malformed += count;
-                    self.log.notes.first_malformed.get_or_insert(LogError::whole(LogProblem::Told(message)));
-                }
-            },
             _ if number(kind).is_some_and(f64::is_finite) => self.tum(text)?,
             "RLASER" | "ROBOTLASER2" => self.log.notes.rear += 1,
             _ if kind.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"_-./".contains(&byte)) => {
@@ -267,25 +280,6 @@ impl Reader {
             }
             _ => return Err(LogProblem::NoMessage(shown(kind))),
         }
-        Ok(())
-    }
-
-    /// Odometry as TUM's benchmarks write it: time x y z qx qy qz qw.
-    fn tum(&mut self, text: &str) -> Result<(), LogProblem> {
-        let mut words = Words { words: text.split_ascii_whitespace(), kind: "" };
-        let time = words.time()?;
-        let [x, y, _, _, _, sin, cos] = {
-            let mut numbers = [0.0; 7];
-            for (number, name) in numbers.iter_mut().zip(["x", "y", "z", "qx", "qy", "qz", "qw"]) {
-                *number = words.number(name)?;
-            }
-            numbers
-        };
-        if x.abs().max(y.abs()) > LaserScan::FARTHEST || (sin == 0.0 && cos == 0.0) {
-            return Err(LogProblem::NoPose);
-        }
-        let theta = 2.0 * ops::atan2(sin, cos);
-        self.odometry(time, Pose2::new(x, y, theta), [x, y, theta]);
         Ok(())
     }
 

@@ -65,6 +65,9 @@ pub(super) enum Told {
     Malformed(u32, String),
 }
 
+/// What reads a line.
+pub(super) type ReadLine = fn(&str) -> Result<Told, LogProblem>;
+
 pub(super) fn read(line: &str) -> Result<Told, LogProblem> {
     let line: Line<Number, Number> = serde_json::from_str(line).map_err(|error| {
         // As Python writes them, unless it is told not to.

@@ -6,6 +6,7 @@ mod carmen;
 mod clock;
 mod constant;
 mod extent;
+mod handed;
 mod heading;
 #[cfg(feature = "json")]
 mod json;
@@ -20,7 +21,7 @@ mod units;
 
 #[cfg(feature = "bags")]
 pub use bag::{BagOptions, BagReader, is_bag, write_path};
-pub use carmen::{LogReader, parse, write};
+pub use carmen::{LogReader, parse, parse_carmen, write};
 pub use extent::swept_area;
 #[cfg(feature = "json")]
 pub use json::write_json_lines;
