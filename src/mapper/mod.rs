@@ -247,7 +247,8 @@ impl LaserMapper {
         map.settle();
         self.closings.take(&standing, 0.0, self.settings.kept_scans as usize);
         self.beams = self.settings.beams.unwrap_or(scan.ranges.len() as u32);
-        let filter = filter(&self.settings, self.beams, map).build().expect("`new` has built one of these settings");
+        // `new` has built one of these settings. The error is left out of what a panic would say, as a number would be written in it by std.
+        let Ok(filter) = filter(&self.settings, self.beams, map).build() else { unreachable!() };
         self.filter = filter.with_executor(self.executor.clone());
         self.take(scan, odometry);
     }

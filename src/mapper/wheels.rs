@@ -193,7 +193,8 @@ impl Wheels {
         let (matched, expected) = (WHEELS.matched_std * WHEELS.matched_std, self.drift() * stretch.way);
         let variance = self.noise.value() * stretch.variance + matched;
         let most = WHEELS.outlying * variance.sqrt();
-        let error = (stretch.turned - expected).clamp(-most, most);
+        // Not `clamp`, whose panic has std's writing of floats with it.
+        let error = (stretch.turned - expected).max(-most).min(most);
         let kept = kept(stretch.way);
         self.drift.learn_and_forget([stretch.way], expected + error, variance, kept);
         self.noise.learn(error * error / (stretch.variance + matched), stretch.way);
