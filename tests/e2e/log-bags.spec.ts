@@ -1,5 +1,5 @@
 // Bags of ROS in the figure that maps logs: dropped or chosen, read by a program that is loaded then, mapped to the same bits as the CARMEN log
-// that says the same, and refused in words.
+// that says the same, and refused in words. The same program reads lines of JSON.
 import { readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { gzipSync } from 'node:zlib'
@@ -100,9 +100,33 @@ test('where several topics have scans, the reader chooses one', async ({ page })
   await expect(log.alert).toBeEmpty()
 })
 
-test('lines of JSON are read without another program', async ({ page }) => {
+test('lines of JSON are read by the same program, wherever they stand and however the file is called', async ({ page }) => {
   const log = await new LogFigure(page).open()
+  const asked: string[] = []
+  page.on('request', request => request.url().endsWith('.wasm') && asked.push(request.url().replace(/.*\//, '')))
   const lines = [1, 2].map(time => JSON.stringify({ time, angle_min: -1, angle_increment: 0.5, ranges: [1, 2, null, 2, 1] }))
   await log.choose('log.jsonl', ['1 0 0 0 0 0 0 1', '2 0.5 0 0 0 0 0 1', ...lines].join('\n'))
   await expect(log.sentence).toContainText('2 scans of up to 5 beams')
+  await log.choose('packed.gz', gzipSync(`# {no scan}\n  ${lines.join('\n')}\n\t${lines[1]!.replace('"time":2', '"time":3')}\n`))
+  await expect(log.sentence).toContainText('3 scans of up to 5 beams')
+  await log.choose('bad.jsonl', [lines[0]!.replace('0.5', 'NaN'), ...lines].join('\n'))
+  await expect(log.alert).toContainText('bad.jsonl, line 1: ')
+  expect(asked).toEqual([expect.stringMatching(/^fastslam-bags.*\.wasm$/)])
+})
+
+test('a log of JSON lines that is to be mapped at once is, also by a program that comes at the second try', async ({ page, complaints }) => {
+  const log = await new LogFigure(page).open()
+  let refused = false
+  await page.route(/fastslam-bags.*\.wasm$/, async route => {
+    if (refused) return route.continue()
+    refused = true
+    await route.abort()
+  })
+  const text = [0, 1, 2].map(time => JSON.stringify({ time, angle_min: -1, angle_increment: 0.5, ranges: [1, 2, 3, 2, 1], odometry: [0.3 * time, 0, 0] })).join('\n')
+  await log.element.evaluate((element, text) => (element as HTMLElement & { open(file: Blob, name: string, start: boolean): Promise<void> }).open(new Blob([text]), 'three.txt', true), text)
+  await expect(log.alert).toContainText('three.txt cannot be mapped: ')
+  expect(complaints.splice(0)).toEqual([expect.stringContaining('ERR_FAILED')])
+  await log.alert.getByRole('button', { name: 'Try again' }).click()
+  await log.done()
+  await expect(log.status).toHaveText('three.txt')
 })

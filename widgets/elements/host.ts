@@ -8,11 +8,14 @@ import type { Message } from './words'
 /** Topics of a bag that a reader has chosen. */
 export type Topics = { scan?: string; odometry?: string }
 
+/** What a log is written in. The program of the figure reads CARMEN itself; the others are read by one that is loaded for them. */
+export type Format = 'carmen' | 'json' | 'bag'
+
 /** What a session does beside its program, with files. */
 export type Errand =
   | { do: 'export'; kind: 'csv' | 'json'; name: string }
   // Of figures that map a file:
-  | { do: 'open'; file: Blob; name: string; start: boolean; topics: Topics; decoder: WebAssembly.Module | undefined }
+  | { do: 'open'; file: Blob; name: string; start: boolean; topics: Topics; format: Format; decoder: WebAssembly.Module | undefined }
   | { do: 'run' | 'pause' }
   | { do: 'save'; what: SavedFile; writer: WebAssembly.Module | undefined }
 
@@ -98,6 +101,8 @@ export type Answer =
   | { told: 'saved'; name: string; data: Blob }
   | { told: 'reading'; megabytes: number }
   | { told: 'choose'; what: 'scan' | 'odometry'; topics: string[] }
+  /** What was taken for a log of CARMEN has lines of JSON. */
+  | { told: 'json'; start: boolean }
   /** It has trapped. `why` is for readers, `error` for the console. */
   | { told: 'failed'; why: Message; error: string }
 

@@ -96,14 +96,16 @@ export class LogSession extends Session {
     this.#phase = 'running'
   }
 
-  async #open({ file, name, start, topics, decoder }: Extract<Errand, { do: 'open' }>): Promise<void> {
+  async #open({ file, name, start, topics, format, decoder }: Extract<Errand, { do: 'open' }>): Promise<void> {
     if (this.#phase === 'running') this.#phase = 'paused' // the log before stays until this one is read
     this.#reading++
     const reading = (megabytes: number) => this.tell({ told: 'reading', megabytes })
     try {
-      const bytes = decoder ? await this.#decoded(file, decoder, topics, reading) : await unpacked(file, reading)
-      if (!bytes) return
-      this.ask(figure => figure.open(bytes))
+      const log = format === 'bag' ? await this.#bag(file, decoder!, topics, reading) : await unpacked(file, reading)
+      if (!log) return
+      if (format === 'carmen' && hasJson(log)) return this.tell({ told: 'json', start })
+      const read = format === 'json' ? (await createShell(decoder!)).read_text(log, this.#messages) : log
+      this.ask(figure => (format === 'carmen' ? figure.open(log) : figure.take(read)))
     } catch (error) {
       return this.refuse(error, name)
     } finally {
@@ -114,8 +116,8 @@ export class LogSession extends Session {
     if (start) this.#start()
   }
 
-  /** A bag as lines of JSON, by a program of its own, which goes when it is done; nothing where the reader has to choose a topic first. */
-  async #decoded(file: Blob, decoder: WebAssembly.Module, topics: Topics, reading: (megabytes: number) => void): Promise<Uint8Array | undefined> {
+  /** What is in a bag, as the figure takes it, by a program of its own, which goes when it is done; nothing where the reader has to choose a topic first. */
+  async #bag(file: Blob, decoder: WebAssembly.Module, topics: Topics, reading: (megabytes: number) => void): Promise<Uint8Array | undefined> {
     const { Bag } = await createShell(decoder)
     const bag = new Bag(topics.scan, topics.odometry, this.#messages)
     for await (const piece of pieces(file, Infinity, reading)) bag.push(piece)
@@ -130,23 +132,21 @@ export class LogSession extends Session {
   }
 
   async #save({ what, writer }: Extract<Errand, { do: 'save' }>): Promise<void> {
-    const saved = (name: string, data: BlobPart, type: string) => this.tell({ told: 'saved', name, data: new Blob([data], { type }) })
+    const saved = (name: string, data: BlobPart, type = 'application/octet-stream') => this.tell({ told: 'saved', name, data: new Blob([data], { type }) })
     const file = (name: string) => this.figure.file(name) as Uint8Array<ArrayBuffer> | undefined
     if (what === 'report.json') return saved(what, this.#atNewest(() => this.#report()), 'application/json')
-    if (what === 'path.mcap') {
-      const path = file('path.f64')
-      if (!path || !writer) return
-      const { path_mcap: mcap } = await createShell(writer)
-      return saved(what, mcap(new Float64Array(path.slice().buffer)) as Uint8Array<ArrayBuffer>, 'application/octet-stream')
-    }
     if (what === 'map.png') {
       const png = await picture(file('map.pgm'))
       return png && saved(what, png, 'image/png')
     }
-    for (const name of what === 'map.ros' ? ['map.pgm', 'map.yaml'] : [what]) {
-      const bytes = file(name)
-      if (bytes) saved(name, bytes, 'application/octet-stream')
-    }
+    const numbers = file(what === 'map.ros' ? 'map.f64' : 'path.f64')
+    if (!numbers || !writer) return
+    const [shell, of] = [await createShell(writer), new Float64Array(numbers.slice().buffer)]
+    if (what === 'path.mcap') return saved(what, shell.path_mcap(of) as Uint8Array<ArrayBuffer>)
+    if (what === 'path.tum') return saved(what, shell.path_tum(of))
+    const [cell, x, y] = of as unknown as [number, number, number]
+    saved('map.pgm', file('map.pgm')!)
+    saved('map.yaml', shell.map_yaml('map.pgm', cell, x, y))
   }
 
   /** What was set and what came out, and every step. */
@@ -163,6 +163,19 @@ async function unpacked(file: Blob, reading: (megabytes: number) => void): Promi
   const parts: Uint8Array<ArrayBuffer>[] = []
   for await (const piece of pieces(file, MOST_BYTES, reading)) parts.push(piece)
   return new Uint8Array(await new Blob(parts).arrayBuffer())
+}
+
+/** What may stand before the first word of a line: blanks, and the byte-order mark in front of a text. */
+const BLANKS = [0x20, 0x09, 0x0c, 0x0d, 0xef, 0xbb, 0xbf]
+
+/** Whether any line of a text begins as an object of JSON does. */
+function hasJson(text: Uint8Array): boolean {
+  for (let at = text.indexOf(0x7b); at >= 0; at = text.indexOf(0x7b, at + 1)) {
+    let before = at - 1
+    while (BLANKS.includes(text[before]!)) before--
+    if (before < 0 || text[before] === 0x0a) return true
+  }
+  return false
 }
 
 /** What is in a file, piece by piece. Compressed or not is told by the first two bytes, as servers may unpack what is called .gz. */

@@ -8,7 +8,7 @@ import type { Extra, Transport } from './extra'
 import type { Figure } from './figure'
 import { fetchExample } from './files'
 import { AT_REST } from './generated/log'
-import type { Answer, Frame, Phase, Run, SavedFile, Topics } from './host'
+import type { Answer, Format, Frame, Phase, Run, SavedFile, Topics } from './host'
 import type { Life } from './life'
 import { Poster } from './log-poster'
 import { takeGestures } from './map-gestures'
@@ -54,7 +54,7 @@ export class Mapping implements Extra, Transport {
   readonly exports = false // the log itself is in none of it: it is a file of the reader's
   readonly stepped = false
   #phase: Phase = 'empty'
-  #log: { file: Blob; name: string; start: boolean; topics: Topics; decoder: WebAssembly.Module | undefined } | undefined // read again by another worker, after a move of the element
+  #log: { file: Blob; name: string; start: boolean; topics: Topics; format: Format; decoder: WebAssembly.Module | undefined } | undefined // read again by another worker, after a move of the element
   #sent: unknown // the source that this worker was given
   #opened = 0 // commands that had been sent then, to this worker and to those that died before
   #lived = false // there has been a frame
@@ -115,23 +115,29 @@ export class Mapping implements Extra, Transport {
 
   /** Reads a log, of a bag the topics named; maps it too if it is to start. */
   async open(file: Blob, name = file instanceof File ? file.name : 'log', start = false, topics: Partial<Record<'scan' | 'odometry', string>> = {}): Promise<void> {
+    return this.#open(file, name, start, topics)
+  }
+
+  /** The same, of a file whose format is known by now. */
+  async #open(file: Blob, name: string, start: boolean, topics: Topics, known?: Format): Promise<void> {
     this.#view.messages.set('file', '')
     this.#life.playback.stop()
     this.#life.crashes = 0 // another log, another chance
-    const log = (this.#log = { file, name, start, topics, decoder: undefined as WebAssembly.Module | undefined })
+    const log = (this.#log = { file, name, start, topics, format: known ?? 'carmen', decoder: undefined as WebAssembly.Module | undefined })
     write(this.#view.status, this.#words.say('reading', { name }))
     for (const about of ['topic', 'unfit']) this.#view.messages.set(about, '') // of the log before
     this.#unfit = ''
     this.#refused = false
     this.#poster.show(this.#phase, true)
     try {
-      if (await isBag(file)) log.decoder = await bagProgram()
+      if (!known && (await isBag(file))) log.format = 'bag'
+      if (log.format !== 'carmen') log.decoder = await filesProgram()
     } catch (error) {
       if (this.#log !== log) return
       this.#log = undefined
       this.#poster.show(this.#phase, false)
       write(this.#view.status, '')
-      return this.#view.messages.set('file', this.#words.say('cannot_map', { file: name, why: this.#words.tell(error instanceof ToldError ? error.told : String(error)) }), this.#words.say('try_again'), () => void this.open(file, name, start, topics))
+      return this.#view.messages.set('file', this.#words.say('cannot_map', { file: name, why: this.#words.tell(error instanceof ToldError ? error.told : String(error)) }), this.#words.say('try_again'), () => void this.#open(file, name, start, topics, known))
     }
     if (this.#log !== log) return // another one was opened meanwhile
     await this.#life.start()
@@ -214,6 +220,9 @@ export class Mapping implements Extra, Transport {
       write(this.#view.status, this.#words.say('reading_megabytes', { megabytes: answer.megabytes }))
     } else if (answer.told === 'choose') {
       this.#choose(answer.what, answer.topics)
+    } else if (answer.told === 'json') {
+      const log = this.#log
+      if (log?.format === 'carmen') void this.#open(log.file, log.name, answer.start, log.topics, 'json')
     } else if (answer.told === 'failed') {
       this.#failed(this.#words.tell(answer.why))
     } else if (answer.told === 'refused' && answer.file !== undefined) {
@@ -255,11 +264,11 @@ export class Mapping implements Extra, Transport {
     this.#life.restart()
   }
 
-  /** Saves what is mapped up to now; what only the program of bags can write is written by that. */
+  /** Saves what is mapped up to now; most of it is written by the program that reads other formats. */
   async #save(what: SavedFile): Promise<void> {
     this.#view.messages.set('file', '')
     try {
-      this.#life.send({ do: 'save', what, writer: what === 'path.mcap' ? await bagProgram() : undefined })
+      this.#life.send({ do: 'save', what, writer: what === 'map.png' || what === 'report.json' ? undefined : await filesProgram() })
     } catch (error) {
       this.#view.messages.set('file', this.#words.say('cannot_save', { file: what, why: this.#words.why(error) }), this.#words.say('try_again'), () => void this.#save(what))
     }
@@ -369,8 +378,8 @@ async function isBag(file: Blob): Promise<boolean> {
   return start.startsWith('\x89MCAP0') || start.startsWith('#ROSBAG') || (start.startsWith('\x1f\x8b') && file instanceof File && /\.(mcap|bag)\.gz$/i.test(file.name))
 }
 
-/** The program that reads bags, and writes one. */
-const bagProgram = () => programNamed('bags').module()
+/** The program that reads bags and JSON, and writes what other programs read. */
+const filesProgram = () => programNamed('bags').module()
 
 /** In words as short as the number is rough. */
 function duration(seconds: number): string {

@@ -12,9 +12,9 @@ use core::{
     cell::RefCell,
     ops::{Deref, DerefMut},
 };
-use fastslam::geometry::Pose2;
+use fastslam::{geometry::Pose2, map::grid::MapImage};
 use fastslam_lab::experiment::{ErrorSummary, Fraction};
-use fastslam_log::{BagOptions, BagReader, LogError, write_json_lines, write_path};
+use fastslam_log::{BagOptions, BagReader, parse, write_path, write_tum};
 use js_sys::{Array, Error, Object, Reflect};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
@@ -137,7 +137,7 @@ impl Bag {
     /// The next bytes; throws a `FigureError` if they cannot be read.
     pub fn push(&mut self, bytes: &[u8]) -> Result<(), Error> {
         let _spoken = self.language.spoken();
-        self.reader.push(bytes).map_err(|error| thrown(bad_bag(&error)))
+        self.reader.push(bytes).map_err(|error| thrown(unread::error(&error)))
     }
 
     /// What is to be chosen, once all is read: `scan` or `odometry`, and the topics that have it; nothing where all is clear.
@@ -145,12 +145,23 @@ impl Bag {
         self.reader.choice().map_or(Vec::new(), |(what, topics)| [vec![what.to_owned()], topics].concat())
     }
 
-    /// The log, as JSON lines; throws a `FigureError` that says what is missing.
+    /// The log, as bytes that `Figure.take` takes; throws a `FigureError` that says what is missing.
     pub fn finish(self) -> Result<Vec<u8>, Error> {
         let _spoken = self.language.spoken();
-        let log = self.reader.given().finish().map_err(|error| thrown(bad_bag(&error)))?;
-        Ok(write_json_lines(&unread::in_words(log)).into_bytes())
+        let log = self.reader.given().finish().map_err(|error| thrown(unread::error(&error)))?;
+        Ok(unread::in_words(log).to_bytes())
     }
+}
+
+/// A log of text with scans as JSON lines, as bytes that `Figure.take` takes. What is said of it is in the language of this catalogue. Throws a
+/// `FigureError` if it cannot be read.
+#[wasm_bindgen]
+pub fn read_text(file: &[u8], catalogue: &str) -> Result<Vec<u8>, Error> {
+    here::<BAGS>();
+    let language = Language::learnt(catalogue);
+    let _spoken = language.spoken();
+    let log = unread::text(file, parse).map_err(thrown)?;
+    Ok(unread::in_words(log).to_bytes())
 }
 
 /// Poses, each as its time \[s\], x \[m\], y \[m\] and heading \[rad\], as a `nav_msgs/Path` in an MCAP file: what `fastslam log --path-mcap`
@@ -158,14 +169,26 @@ impl Bag {
 #[wasm_bindgen]
 pub fn path_mcap(poses: &[f64]) -> Result<Vec<u8>, Error> {
     here::<BAGS>();
-    let (poses, _) = poses.as_chunks();
-    let path: Vec<_> = poses.iter().map(|&[time, x, y, theta]| (time, Pose2 { x, y, theta })).collect();
-    let refused = |message| thrown(FigureError { parameter: "file".into(), message });
-    write_path(&path).map_err(refused)
+    write_path(&path(poses)).map_err(|why| thrown(unread::refused(why)))
 }
 
-fn bad_bag(error: &LogError) -> FigureError {
-    FigureError { parameter: "file".into(), message: unread::problem(&error.problem) }
+/// The same poses as the benchmarks of TUM write them: what `fastslam log --trajectory` writes.
+#[wasm_bindgen]
+pub fn path_tum(poses: &[f64]) -> String {
+    here::<BAGS>();
+    write_tum(&path(poses))
+}
+
+fn path(poses: &[f64]) -> Vec<(f64, Pose2)> {
+    poses.as_chunks().0.iter().map(|&[time, x, y, theta]| (time, Pose2 { x, y, theta })).collect()
+}
+
+/// What ROS has to know of a map's picture, whose file is called `image`: the side of its cells \[m\], and where in the world frame its lower
+/// left corner is \[m\].
+#[wasm_bindgen]
+pub fn map_yaml(image: &str, cell_size: f64, x: f64, y: f64) -> String {
+    here::<BAGS>();
+    MapImage { width: 0, height: 0, origin: [x, y], cell_size, grey: Vec::new() }.yaml(image)
 }
 
 /// One figure on a page; to be freed when it leaves the page.
@@ -219,6 +242,11 @@ impl Figure {
     /// Takes a reader's file; throws a `FigureError` if it cannot be read.
     pub fn open(&mut self, file: &[u8]) -> Result<(), Error> {
         self.figure.open(file).map_err(thrown)
+    }
+
+    /// Takes what `Bag.finish` or `read_text` of another program has made of a reader's file; throws a `FigureError` if it cannot be used.
+    pub fn take(&mut self, read: &[u8]) -> Result<(), Error> {
+        self.figure.take(read).map_err(thrown)
     }
 
     /// A file of this name made of the state shown, if there is such a one.

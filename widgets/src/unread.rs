@@ -1,9 +1,34 @@
-//! Why a log cannot be read, and what was made of it, in the language spoken. The reader of logs tells it as data, which it displays in
-//! English; a problem that has no words here is said so.
+//! Why a log cannot be read, and what was made of it, in the language spoken. The reader of logs tells it as data. It displays them in English
+//! too, which nothing here asks of it: with that, std's writing of floating-point numbers would come into the program.
 
-use crate::words::unread as words;
+use crate::decimal;
+use crate::model::FigureError;
+use crate::words::{log, unread as words};
 use fastslam::mapper;
-use fastslam_log::{Beyond, Field, LaserLog, LogProblem, MessageProblem, Remark, Topics};
+use fastslam_log::{Beyond, Field, LaserLog, LogError, LogProblem, MessageProblem, Remark, Topics};
+
+/// A file that is refused.
+pub fn refused(message: impl Into<String>) -> FigureError {
+    FigureError { parameter: "file".into(), message: message.into() }
+}
+
+/// What is wrong with a file, in a line.
+pub fn error(LogError { line, problem }: &LogError) -> FigureError {
+    let problem = self::problem(problem);
+    refused(if *line > 0 { log::AtLine { line, message: &problem }.say() } else { problem })
+}
+
+/// A log of text, read by one of the parsers of [`fastslam_log`].
+///
+/// # Errors
+/// What is wrong with it, for whoever chose the file.
+pub fn text(file: &[u8], parse: impl Fn(&[u8], bool) -> Result<LaserLog, LogError>) -> Result<LaserLog, FigureError> {
+    // Without its malformed lines first, to count them. Where nothing is left, the first of them tells most.
+    parse(file, true).map_err(|_| match parse(file, false) {
+        Err(why) => error(&why),
+        Ok(_) => refused(log::no_scan()),
+    })
+}
 
 /// A problem of a log.
 pub fn problem(problem: &LogProblem) -> String {
@@ -62,7 +87,8 @@ pub fn problem(problem: &LogProblem) -> String {
         LogProblem::Truncated => words::truncated().into(),
         LogProblem::Compression(name) => words::Compression { name }.say(),
         LogProblem::Damaged(what) => words::Damaged { what }.say(),
-        other => other.to_string(),
+        LogProblem::Topic(told) | LogProblem::Told(told) => told.clone(),
+        _ => words::other().into(),
     }
 }
 
@@ -83,7 +109,8 @@ pub fn remark(remark: &Remark) -> String {
         }
         Remark::Beyond(scans) => words::Beyond { scans }.say(),
         Remark::NoTransform { laser, robot } => words::NoTransform { laser, robot }.say(),
-        other => other.to_string(),
+        Remark::Told(told) => told.clone(),
+        _ => words::other().into(),
     }
 }
 
@@ -94,23 +121,23 @@ pub fn mapped(remark: &mapper::Remark) -> String {
         Remark::Contradicted { steps, time, told: [metres, turn], elapsed } => words::Contradicted {
             steps,
             time: &milliseconds(*time),
-            metres: &crate::decimal::fixed(*metres, 2),
-            degrees: &crate::decimal::fixed(turn.to_degrees(), 0),
+            metres: &decimal::fixed(*metres, 2),
+            degrees: &decimal::fixed(turn.to_degrees(), 0),
             seconds: &tenths(*elapsed),
         }
         .say(),
         Remark::OtherScale { times, std } => {
-            let [times, std] = [*times, *std].map(|x| crate::decimal::fixed(x, 3));
+            let [times, std] = [*times, *std].map(|x| decimal::fixed(x, 3));
             words::OtherScale { times: &times, std: &std }.say()
         }
         Remark::NeverMoved(scans) => words::NeverMoved { scans }.say(),
         Remark::OpenLoops { loops, time } => words::OpenLoops { loops, time: &milliseconds(*time) }.say(),
         Remark::NothingMet => words::nothing_met().into(),
-        other => other.to_string(),
+        _ => words::other().into(),
     }
 }
 
-/// The log with all that was noted of it in words, which can be written and read by a program that knows neither.
+/// The log with all that was noted of it in words, for a program that knows neither its format nor the language.
 pub fn in_words(mut log: LaserLog) -> LaserLog {
     let notes = &mut log.notes;
     notes.remarks = notes.remarks.iter().map(|noted| Remark::Told(remark(noted))).collect();
@@ -130,7 +157,7 @@ fn field(field: Field) -> String {
         Field::RemissionCount => words::remission_count().into(),
         Field::Remission => words::remissions().into(),
         Field::Range { number, of } => words::RangeNumber { number: &number, of: &of }.say(),
-        other => other.to_string(),
+        _ => words::other().into(),
     }
 }
 
@@ -147,7 +174,7 @@ fn of_message(problem: &MessageProblem) -> String {
         MessageProblem::Encapsulation([first, second]) => {
             words::Encapsulation { bytes: &format_args!("{first:02x}{second:02x}") }.say()
         }
-        other => other.to_string(),
+        _ => words::other().into(),
     }
 }
 
@@ -165,13 +192,20 @@ fn but(kind: Option<&String>) -> String {
 
 /// Whatever a file says, on one short line.
 fn number(x: f64) -> String {
-    if x.abs() < 1e15 || !x.is_finite() { x.to_string() } else { format!("{x:e}") }
+    if x.abs() < 1e15 || !x.is_finite() {
+        return decimal::write(x);
+    }
+    let (digits, exponent) = decimal::significant(x, DIGITS);
+    format!("{digits}e{exponent}")
 }
 
+/// Digits of numbers that are too large for anything: more would not be told apart from what is lost on the way to their power of ten.
+const DIGITS: i32 = 12;
+
 fn tenths(x: f64) -> String {
-    crate::decimal::fixed(x, 1)
+    decimal::fixed(x, 1)
 }
 
 fn milliseconds(seconds: f64) -> String {
-    crate::decimal::fixed(seconds, 3)
+    decimal::fixed(seconds, 3)
 }

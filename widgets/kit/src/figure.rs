@@ -304,9 +304,21 @@ impl Figure {
     /// # Errors
     /// For a file that cannot be read, and for a figure that has no use for any; it is as it was.
     pub fn open(&mut self, file: &[u8]) -> Result<(), FigureError> {
+        self.with_files(|files| files.open(file))
+    }
+
+    /// Takes what another program of ours has read of a reader's file.
+    ///
+    /// # Errors
+    /// For what cannot be used, and for a figure that has no use for any file; it is as it was.
+    pub fn take(&mut self, read: &[u8]) -> Result<(), FigureError> {
+        self.with_files(|files| files.take(read))
+    }
+
+    fn with_files(&mut self, act: impl FnOnce(&mut dyn Files) -> Result<(), FigureError>) -> Result<(), FigureError> {
         self.tell(|model| {
             let none = FigureError { parameter: "file".into(), message: kit::no_file().into() };
-            model.files_mut().ok_or(none)?.open(file)
+            act(model.files_mut().ok_or(none)?)
         })
     }
 

@@ -332,6 +332,12 @@ pub trait Files {
     /// For a file that cannot be read; the model is as it was.
     fn open(&mut self, file: &[u8]) -> Result<(), FigureError>;
 
+    /// Takes what another program of ours has read of a reader's file, as it hands it over. A reader's own bytes never come here.
+    ///
+    /// # Errors
+    /// For what cannot be used; the model is as it was.
+    fn take(&mut self, read: &[u8]) -> Result<(), FigureError>;
+
     /// Whether what was set can be computed at all: asked before a computation that takes long.
     ///
     /// # Errors

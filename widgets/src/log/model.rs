@@ -14,7 +14,7 @@ use super::{
 use crate::challenge::Challenge;
 use crate::decimal::write;
 use crate::model::{Change, Declared, FigureError, Files, Model};
-use crate::unread;
+use crate::unread::{self, refused};
 use crate::words::log as words;
 use fastslam::{
     map::{
@@ -24,7 +24,7 @@ use fastslam::{
     mapper::{LaserMapper, LaserMapperSettings, Replay},
     rbpf::Report,
 };
-use fastslam_log::{LaserLog, LogError, parse, write_tum};
+use fastslam_log::{LaserLog, parse_carmen};
 
 /// Steps back of the lineage gauge.
 pub const BACK: u32 = 20;
@@ -154,6 +154,17 @@ impl LogModel {
         Some(self.opened.as_ref()?.bytes(self.setup(), self.setup().particles))
     }
 
+    /// Takes a log instead of the one before.
+    fn adopt_log(&mut self, log: LaserLog) -> Result<(), FigureError> {
+        if log.scans.len() < 2 {
+            return Err(refused(words::one_scan()));
+        }
+        self.opened = Some(Opened::new(log, self.setup()));
+        self.logs += 1;
+        self.restart();
+        Ok(())
+    }
+
     /// Forgets what was computed.
     fn restart(&mut self) {
         self.replay = None;
@@ -189,16 +200,6 @@ impl LogModel {
         }
         self.kept.push(Seen::now(replay, &self.deaths));
     }
-}
-
-/// What is wrong with a file, in a line.
-fn unreadable(LogError { line, problem }: &LogError) -> FigureError {
-    let problem = unread::problem(problem);
-    refused(if *line > 0 { words::AtLine { line, message: &problem }.say() } else { problem })
-}
-
-fn refused(message: impl Into<String>) -> FigureError {
-    FigureError { parameter: "file".into(), message: message.into() }
 }
 
 impl Declared for LogModel {
@@ -239,17 +240,11 @@ impl Files for LogModel {
         if file.is_empty() {
             return Err(refused(words::empty()));
         }
-        // Without its malformed lines first, to count them. Where nothing is left, the first of them tells most.
-        let log = parse(file, true)
-            .map_err(|_| parse(file, false).err())
-            .map_err(|error| error.map_or_else(|| refused(words::no_scan()), |error| unreadable(&error)))?;
-        if log.scans.len() < 2 {
-            return Err(refused(words::one_scan()));
-        }
-        self.opened = Some(Opened::new(log, self.setup()));
-        self.logs += 1;
-        self.restart();
-        Ok(())
+        self.adopt_log(unread::text(file, parse_carmen)?)
+    }
+
+    fn take(&mut self, read: &[u8]) -> Result<(), FigureError> {
+        self.adopt_log(LaserLog::from_bytes(read).ok_or_else(|| refused(words::no_scan()))?)
     }
 
     fn ready(&self) -> Result<(), FigureError> {
@@ -258,7 +253,7 @@ impl Files for LogModel {
         };
         let notes = &opened.log.notes;
         if let (false, Some(first)) = (self.recipe.lenient, &notes.first_malformed) {
-            let (first, n) = (unreadable(first).message, &notes.malformed);
+            let (first, n) = (unread::error(first).message, &notes.malformed);
             let message = if *n > 1 { words::ManyMalformed { first: &first, n }.say() } else { first };
             return Err(FigureError { parameter: "lenient".into(), message });
         }
@@ -286,24 +281,27 @@ impl Files for LogModel {
     fn file(&self, name: &str) -> Option<Vec<u8>> {
         let mapper = self.mapper()?;
         Some(match name {
-            // Time [s], x [m], y [m] and heading [rad] of each pose, in the bits of the path: what another program writes a file of.
+            // Time [s], x [m], y [m] and heading [rad] of each pose, in the bits of the path: what another program writes files of.
             "path.f64" => mapper
                 .path()
                 .iter()
                 .flat_map(|(time, pose)| [*time, pose.x, pose.y, pose.theta])
                 .flat_map(f64::to_le_bytes)
                 .collect(),
-            "path.tum" => write_tum(&mapper.path()).into_bytes(),
-            "map.pgm" => map_image(mapper).pgm(),
-            "map.yaml" => map_image(mapper).yaml("map.pgm").into_bytes(),
+            "map.pgm" => map_image(mapper)?.pgm(),
+            // Side of a cell and the world frame of the lower left corner [m], in their bits, for the same.
+            "map.f64" => {
+                let MapImage { cell_size, origin: [x, y], .. } = map_image(mapper)?;
+                [cell_size, x, y].into_iter().flat_map(f64::to_le_bytes).collect()
+            }
             _ => return None,
         })
     }
 }
 
 /// The best particle's map as ROS reads it, with the ground that the robot has covered.
-fn map_image(mapper: &LaserMapper) -> MapImage {
-    MapImage::of(mapper.map(), &mapper.path(), &MapImageSettings::default()).expect("the defaults are in range")
+fn map_image(mapper: &LaserMapper) -> Option<MapImage> {
+    MapImage::of(mapper.map(), &mapper.path(), &MapImageSettings::default()).ok() // the defaults are in range
 }
 
 impl Model for LogModel {

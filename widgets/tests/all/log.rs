@@ -2,7 +2,6 @@
 
 use crate::common::{assert_texts_fit, figure, scene, state};
 use fastslam_widgets::{
-    fastslam::ops,
     figure::Figure,
     log::{Layout, Verb},
     registry,
@@ -363,19 +362,18 @@ fn every_text_fits_at_every_width() {
 fn files_hold_the_best_path_and_map() {
     let figure = mapped(QUICK, 90);
     let file = |name: &str| figure.file(name).unwrap();
-    let path = String::from_utf8(file("path.tum")).unwrap();
-    let poses: Vec<Vec<f64>> = path.lines().map(|l| l.split(' ').map(|x| x.parse().unwrap()).collect()).collect();
+    let numbers = |name: &str| -> Vec<f64> {
+        file(name).as_chunks::<8>().0.iter().map(|bits| f64::from_le_bytes(*bits)).collect()
+    };
+    let path = numbers("path.f64");
+    let poses = path.as_chunks::<4>().0;
     assert_eq!(poses.len(), 91);
-    let rows = figure.export().rows();
-    for (pose, row) in poses.iter().zip(&rows) {
-        let [time, x, y, theta] = [1, 2, 3, 4].map(|k| row[k].unwrap());
-        assert!((pose[0] - time).abs() < 1e-6 && (pose[1] - x).abs() < 1e-6 && (pose[2] - y).abs() < 1e-6);
-        let (sin, cos) = ops::sin_cos(0.5 * theta);
-        assert!((pose[6] - sin).abs() < 1e-6 && (pose[7] - cos).abs() < 1e-6, "half angles");
-        assert_eq!(pose[3..6], [0.0; 3]);
+    for (pose, row) in poses.iter().zip(&figure.export().rows()) {
+        let told = [1, 2, 3, 4].map(|k| row[k].unwrap());
+        assert!(pose.iter().zip(told).all(|(kept, told)| (kept - told).abs() < 1e-6), "{pose:?} {told:?}");
     }
-    let yaml = String::from_utf8(file("map.yaml")).unwrap();
-    assert!(yaml.starts_with("image: \"map.pgm\"\nmode: trinary\nresolution: 0.2\norigin: [-"), "{yaml}");
+    let map = numbers("map.f64");
+    assert_eq!(map[0], 0.2);
     let pgm = file("map.pgm");
     let header = String::from_utf8_lossy(&pgm[..15]).into_owned();
     let size: Vec<usize> = header.lines().nth(1).unwrap().split(' ').map(|n| n.parse().unwrap()).collect();
@@ -385,8 +383,7 @@ fn files_hold_the_best_path_and_map() {
     }
     assert!(cells.iter().all(|grey| [0, 205, 254].contains(grey)));
     // The robot starts at the origin, which is free.
-    let origin: Vec<f64> = yaml.split(['[', ']']).nth(1).unwrap().split(", ").map(|x| x.parse().unwrap()).collect();
-    let [column, row] = [0, 1].map(|k| (-origin[k] / 0.2).round() as usize);
+    let [column, row] = [1, 2].map(|k| (-map[k] / 0.2).round() as usize);
     assert_eq!(cells[(size[1] - 1 - row) * size[0] + column], 254);
     assert_eq!(figure.file("map.exe"), None);
     assert_eq!(opened(QUICK).file("map.pgm"), None);

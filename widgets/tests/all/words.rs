@@ -1,9 +1,7 @@
 //! Figures in other languages: every word is of the language, and nothing else changes.
 
 use fastslam_figures_catalogue::build::read;
-use fastslam_log::{
-    BagOptions, BagReader, Beyond, Field, LogProblem, MessageProblem, Remark, Topics, parse, write_json_lines,
-};
+use fastslam_log::{BagOptions, BagReader, Beyond, Field, LaserLog, LogProblem, MessageProblem, Remark, Topics, parse};
 use fastslam_widgets::{
     fastslam::mapper,
     figure::Figure,
@@ -321,7 +319,6 @@ fn a_log_that_cannot_be_opened_is_refused_in_the_language_of_its_figure() {
         (scan("0"), "Zeile 1: FLASER: erwartet Entfernungen, gefunden keine"),
         (scan("2 nan nan").repeat(2), "keiner der 4 Messwerte ist eine Entfernung: eine endliche Zahl über 0"),
         (scan("1 2"), "sie hat nur einen Scan, und damit ist nichts zu kartieren"),
-        ("{\"time\": 1}\n".into(), "Zeile 1: ein Scan als JSON: erwartet „angle_min“, gefunden nichts"),
     ] {
         assert_eq!(figure.open(file.as_bytes()).unwrap_err().message, says);
     }
@@ -334,7 +331,7 @@ fn a_log_that_cannot_be_opened_is_refused_in_the_language_of_its_figure() {
 }
 
 #[test]
-fn what_is_noted_of_a_bag_goes_through_lines_of_json_in_the_language_of_the_page() {
+fn what_another_program_notes_of_a_log_is_told_in_the_language_in_which_it_was_read() {
     let bag = include_bytes!("../../../tests/bags/odometry-zstd.mcap");
     let read = |bytes: &[u8]| {
         let mut reader = BagReader::new(BagOptions { lenient: true, ..BagOptions::default() });
@@ -342,14 +339,35 @@ fn what_is_noted_of_a_bag_goes_through_lines_of_json_in_the_language_of_the_page
     };
     let mut log = read(&bag[..bag.len() / 2]).unwrap();
     log.notes.remarks = remarks().into();
-    let _spoken = Language::learnt(&lines("de")).spoken();
-    let again = parse(write_json_lines(&unread::in_words(log)).as_bytes(), false).unwrap();
-    let first = unread::problem(&again.notes.first_malformed.unwrap().problem);
+    let spoken = Language::learnt(&lines("de")).spoken();
+    let again = LaserLog::from_bytes(&unread::in_words(log).to_bytes()).unwrap();
+    let nothing = unread::error(&read(b"#ROSBAG V2.0\n").unwrap_err()).message;
+    assert_eq!(nothing, "sie enthält kein Topic mit sensor_msgs/LaserScan; vorhanden: kein einziges");
+    let german = remarks().map(|remark| unread::remark(&remark));
+    drop(spoken);
+    let first = unread::error(&again.notes.first_malformed.unwrap()).message;
     assert_eq!(first, "sie endet mitten in einem Datensatz: Wurde die Aufnahme abgebrochen?");
     let noted: Vec<String> = again.notes.remarks.iter().map(unread::remark).collect();
-    assert_eq!(noted, remarks().map(|remark| unread::remark(&remark)));
+    assert_eq!(noted, german);
     assert!(noted[0].starts_with("es gibt keine Odometrie"));
-    let nothing = read(b"#ROSBAG V2.0\n").unwrap_err();
-    let said = unread::problem(&nothing.problem);
-    assert_eq!(said, "sie enthält kein Topic mit sensor_msgs/LaserScan; vorhanden: kein einziges");
+}
+
+#[test]
+fn a_log_of_json_lines_is_opened_as_it_was_read_with_what_is_wrong_in_its_place() {
+    let scan = |time: u32, x: u32| {
+        format!(
+            "{{\"time\": {time}, \"angle_min\": -1, \"angle_increment\": 1, \"ranges\": [1, null, {x}], \"odometry\": [{x}, 0, 0]}}\n"
+        )
+    };
+    let lacks = "a scan in JSON: expected \"angle_min\", found none";
+    let why = unread::text(b"{\"time\": 1}\n", parse).unwrap_err().message;
+    assert_eq!(why, format!("line 1: {lacks}"));
+    let text = [scan(1, 1), "{\"time\": 1}\n".into(), scan(2, 2)].concat();
+    let read = unread::in_words(unread::text(text.as_bytes(), parse).unwrap());
+    let mut figure = figure("fastslam-log", "en");
+    assert!(figure.open(&read.to_bytes()).is_err(), "a reader's file is never taken for what a program has read");
+    figure.take(&read.to_bytes()).unwrap();
+    assert_eq!(figure.ready().unwrap_err().message, format!("line 2: {lacks}"));
+    assert!(figure.describe().contains("2 scans of up to 3 beams"), "{}", figure.describe());
+    assert!(figure.open(text.as_bytes()).is_err(), "JSON itself is read by another program");
 }
