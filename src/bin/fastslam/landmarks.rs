@@ -3,6 +3,7 @@
 mod gone;
 mod many;
 mod one;
+mod successive;
 
 use self::gone::gone;
 use self::many::{Errors, many};
@@ -165,6 +166,13 @@ where
         }
     }
 
+    /// By how many times successive looks differ more than the noises that are told allow.
+    fn excess(&self, arguments: &Arguments, log: &LandmarkLog<D::Control>) -> f64 {
+        // Where landmarks have names, innovations tell it.
+        let is_asked = arguments.association == CorrespondenceKind::Unknown;
+        if is_asked { successive::excess(log, &self.tuning.motion, &self.tuning.sensor) } else { 1.0 }
+    }
+
     /// Runs the command with filters that begin by this function.
     fn run_of<M, P>(
         &self,
@@ -196,7 +204,11 @@ where
         let Some(seeds) = arguments.seeds else {
             let run = run(arguments.seed)?;
             let setup = setup(arguments.seed);
-            let others = Others { ekf: run.rms_ekf(&setup, &self.tuning), late: rms_late(&run, &setup)? };
+            let others = Others {
+                ekf: run.rms_ekf(&setup, &self.tuning),
+                late: rms_late(&run, &setup)?,
+                excess: self.excess(arguments, run.log()),
+            };
             return one(arguments, run, others, (&self.noises, &self.remarks));
         };
         let first = run(1)?; // refused before anything is run, if it is
@@ -215,9 +227,10 @@ where
                 let others = Others {
                     ekf: recorded.unwrap_or_else(|| run.rms_ekf(&setup(*seed), &self.tuning)),
                     late: rms_late(&run, &setup(*seed))?,
+                    excess: self.excess(arguments, run.log()),
                 };
                 let path = [run.rms_best(), run.rms_best_aligned(), run.rms_odometry()];
-                let outcome = Outcome { ekf: others.ekf, ..outcome(&run, &innovations, steps) };
+                let outcome = Outcome { ekf: others.ekf, excess: others.excess, ..outcome(&run, &innovations, steps) };
                 Ok(Errors { online: run.rms_online(), others, path, outcome })
             })
             .collect();
@@ -229,6 +242,8 @@ where
 struct Others {
     ekf: f64,
     late: Option<f64>,
+    /// [`Outcome::excess`].
+    excess: f64,
 }
 
 /// What is counted of the steps of a run.

@@ -23,6 +23,8 @@ pub struct Outcome {
     pub errors: [f64; 2],
     /// RMS error of position as it went of EKF-SLAM that is told the same \[m\].
     pub ekf: f64,
+    /// By how many times successive looks differ more than the noises that were told allow; 1 where that is not sure.
+    pub excess: f64,
     /// Landmarks with names of which what was seen contradicts the noises that were told.
     pub contradicting: f64,
     /// Landmarks with names that were not seen any more where they should have been.
@@ -58,11 +60,23 @@ const BEHIND: f64 = 2.0;
 impl Outcome {
     /// The remarks, each with what to change. `noises` are the options that set the noise of the odometry.
     pub fn remarks(&self, noises: &[&str]) -> Vec<String> {
-        let noise = self.of_noises(noises).or_else(|| self.of_some());
-        [noise, self.of_landmarks(), self.of_gone(), self.of_names(), self.of_stretches(), self.of_errors()]
+        let noise = self.of_noises(noises).or_else(|| self.of_looks(noises)).or_else(|| self.of_some());
+        [noise, self.of_landmarks(noises), self.of_gone(), self.of_names(), self.of_stretches(), self.of_errors()]
             .into_iter()
             .flatten()
             .collect()
+    }
+
+    /// Where the filter chooses the landmark, its innovations agree whatever it is told.
+    fn of_looks(&self, noises: &[&str]) -> Option<String> {
+        (self.excess > 1.0).then(|| {
+            format!(
+                "successive measurements of what must be one landmark differ by {:.1} times as much as the noises that were told allow: tell larger \
+                 noises ({})",
+                self.excess,
+                options(noises)
+            )
+        })
     }
 
     fn of_some(&self) -> Option<String> {
@@ -100,9 +114,7 @@ impl Outcome {
     fn of_noises(&self, noises: &[&str]) -> Option<String> {
         let (count, Some(mean), beyond) = self.innovations else { return None };
         let [least, most] = agreeing(count);
-        let options: Vec<String> =
-            ["range-std", "bearing-std"].iter().chain(noises).map(|name| format!("--{name}")).collect();
-        let options = options.join(", ");
+        let options = options(noises);
         if mean > most {
             let drift =
                 if self.drift.is_some() { "" } else { ", let the drift of the odometry be learnt (--drift learnt)" };
@@ -122,7 +134,7 @@ impl Outcome {
         })
     }
 
-    fn of_landmarks(&self) -> Option<String> {
+    fn of_landmarks(&self, noises: &[&str]) -> Option<String> {
         let Self { left, founded, there, .. } = *self;
         if there > 0.0 && left > 2.0 * there {
             return Some(format!(
@@ -140,7 +152,8 @@ impl Outcome {
         Some(format!(
             "{said}: the others were struck off because they were not seen where they should have been, or merged; let a sighting pay for more \
              misses (--sighting-worth, 0: nothing is struck off; --most-count), tell where the sensor truly sees (--max-range, --field-of-view) or \
-             merge less (--merge)"
+             merge less (--merge); noises that are told too small do the same: tell larger ones ({})",
+            options(noises)
         ))
     }
 
@@ -182,6 +195,13 @@ impl Outcome {
     }
 }
 
+/// The options that set the noise of the sensor and, by these names, of the odometry.
+fn options(noises: &[&str]) -> String {
+    let options: Vec<String> =
+        ["range-std", "bearing-std"].iter().chain(noises).map(|name| format!("--{name}")).collect();
+    options.join(", ")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -196,6 +216,7 @@ mod tests {
         blind: 0.1,
         errors: [0.5, 2.4],
         ekf: 0.4,
+        excess: 1.0,
         contradicting: 0.0,
         gone: 0.0,
         named: 1500.0,
@@ -240,11 +261,28 @@ mod tests {
     }
 
     #[test]
+    fn looks_that_contradict_the_noises_are_told_where_innovations_agree() {
+        let looks = said(Outcome { excess: 3.04, ..GOOD });
+        assert!(
+            looks.starts_with("successive measurements of what must be one landmark differ by 3.0 times"),
+            "{looks}"
+        );
+        assert!(looks.ends_with("tell larger noises (--range-std, --bearing-std, --alphas)"), "{looks}");
+        let both = said(Outcome { excess: 3.0, innovations: (900, Some(18.4), 0.07), ..GOOD });
+        assert!(both.starts_with("what was seen contradicts") && !both.contains("successive"), "{both}");
+    }
+
+    #[test]
     fn landmarks_that_vanish_or_are_mapped_twice_are_told() {
         let few = Outcome { left: 8.0, there: 151.0, ..GOOD };
         assert!(said(few).starts_with("only 8 of the 151 landmarks that were seen are left"), "{}", said(few));
         let nameless = Outcome { left: 8.0, founded: 900.0, there: 0.0, ..GOOD };
         assert!(said(nameless).starts_with("only 8 of the 900 landmarks that were mapped"), "{}", said(nameless));
+        assert!(
+            said(nameless).ends_with("tell larger ones (--range-std, --bearing-std, --alphas)"),
+            "{}",
+            said(nameless)
+        );
         let many = Outcome { left: 406.0, there: 151.0, ..GOOD };
         assert!(said(many).starts_with("the best map has 406 landmarks where 151 were seen"), "{}", said(many));
     }

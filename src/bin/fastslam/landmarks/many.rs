@@ -69,6 +69,7 @@ fn median_outcome(errors: &[Errors]) -> Outcome {
         founded_again: median(&|outcome| outcome.founded_again),
         named: median(&|outcome| outcome.named),
         ekf: median(&|outcome| outcome.ekf),
+        excess: median(&|outcome| outcome.excess),
         blind: median(&|outcome| outcome.blind),
         errors: [0, 1].map(|k| median(&|outcome| outcome.errors[k])),
         drift: of_first

@@ -66,7 +66,7 @@ where
     let resampled = steps.iter().filter(|step| step.ancestors.is_some()).count();
     let mut counted = Steps::default();
     steps.iter().for_each(|step| counted.add(step));
-    let outcome = Outcome { ekf: others.ekf, ..outcome(&run, &innovations, counted) };
+    let outcome = Outcome { ekf: others.ekf, excess: others.excess, ..outcome(&run, &innovations, counted) };
     let remarks = [of_log, &outcome.remarks(D::NAMES)].concat();
     let output = Output {
         noises: noises.into(),

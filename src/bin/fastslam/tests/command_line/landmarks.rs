@@ -294,6 +294,9 @@ fn noises_that_are_contradicted_and_landmarks_that_vanish_are_told() {
     assert!(sharp.contains("contradicts the noises that were told") && sharp.contains("--alphas"), "{sharp}");
     assert!(told("--seeds 3 --range-std 0.005 --bearing-std 0.001").contains("contradicts"));
     assert!(told("--range-std 1 --bearing-std 0.2").contains("agrees far better than the noises that were told"));
+    // Where landmarks have no names, a filter chooses what agrees: two looks in a row tell it.
+    let sharp = told("--course tags --association unknown --range-std 0.06 --bearing-std 0.007");
+    assert!(sharp.contains("successive measurements of what must be one landmark differ by 4."), "{sharp}");
     // Every landmark up to 50 m all around should be seen, and a sensor that sees 6 m ahead does not.
     let few = told("--association unknown --max-range 50 --field-of-view 6.28");
     assert!(few.contains("of the 24 landmarks that were seen are left in the best map"), "{few}");
