@@ -127,7 +127,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
     let told = |from: &str| if noises.is_empty() { from.into() } else { format!("{from}, and as set") };
     if let Some(prefix) = &arguments.mrclam {
         let tuning = noises.adjust(camera::tuning())?;
-        let (log, remarks) = mrclam::read(prefix, &tuning.sensor, named)?;
+        let (log, remarks) = mrclam::read(prefix, &tuning, named)?;
         let log = Arc::new(log);
         return Task { log: |_| Arc::clone(&log), tuning, recorded: true, noises: told(mrclam::NOISES), remarks }
             .run(arguments);

@@ -5,6 +5,7 @@ mod landmark_graph;
 mod landmarks;
 mod log;
 mod mrclam;
+mod offsets;
 mod picture;
 mod remarks;
 mod sense;

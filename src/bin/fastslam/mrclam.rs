@@ -5,10 +5,10 @@ use crate::sense::Drive;
 use crate::{Usage, in_file};
 use anyhow::{Context, Result, bail};
 use fastslam::geometry::Pose2;
-use fastslam::motion::Velocity;
+use fastslam::motion::{Velocity, VelocityDiffusion};
 use fastslam::ops;
-use fastslam::sensor::{Feature, RangeBearing};
-use fastslam_lab::experiment::landmarks::LandmarkLog;
+use fastslam::sensor::Feature;
+use fastslam_lab::experiment::landmarks::{LandmarkLog, Tuning};
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -25,7 +25,7 @@ const LONGEST_STEP: f64 = 0.5;
 
 /// Reads PREFIX-barcodes.dat, -landmarks.dat and -robot1-{odometry,measurement,groundtruth}.dat. PREFIX may name the robot:
 /// PREFIX-robot2. Returns the log with what is to be told of it; `named` is whether bar codes are read.
-pub fn read(prefix: &Path, sensor: &RangeBearing, named: bool) -> Result<(LandmarkLog, Vec<String>)> {
+pub fn read(prefix: &Path, tuning: &Tuning<VelocityDiffusion>, named: bool) -> Result<(LandmarkLog, Vec<String>)> {
     let text = prefix.to_string_lossy();
     let text = text.trim_end_matches('-');
     let (set, robot) = match text.rsplit_once("-robot") {
@@ -65,7 +65,10 @@ pub fn read(prefix: &Path, sensor: &RangeBearing, named: bool) -> Result<(Landma
         looks.push((time, once.map(|(_, row)| feature(row)).collect()));
     }
     let used = used(&odometry, &truth);
-    remarks.extend(Drive { odometry: &odometry, looks: &looks, used, sensor }.remarks());
+    remarks.extend(
+        Drive { odometry: &odometry, looks: &looks, used, sensor: &tuning.sensor, motion: Some(&tuning.motion) }
+            .remarks(),
+    );
     let log = drive(log, &odometry, &truth, looks, |pose, control| control.apply(pose));
     if log.controls.is_empty() {
         bail!(Usage::of_file(prefix, "no measurement falls into the time of both odometry and ground truth"));

@@ -1,6 +1,8 @@
 //! What the rows of a landmark log say against each other: every number is possible, and yet something is wrong.
 
 use crate::calibration::Sequence;
+use crate::offsets;
+use fastslam::motion::VelocityDiffusion;
 use fastslam::sensor::{Feature, LandmarkSensor, RangeBearing};
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -30,12 +32,19 @@ pub struct Drive<'a> {
     /// First and last second.
     pub used: [f64; 2],
     pub sensor: &'a RangeBearing,
+    /// Noise of the odometry, where it is one of velocities.
+    pub motion: Option<&'a VelocityDiffusion>,
 }
 
 impl Drive<'_> {
     /// What is to be told, each with what to look at.
     pub fn remarks(&self) -> Vec<String> {
-        [self.of_rows(), Sequence::new(self.odometry, self.looks).remarks()].concat()
+        let mut remarks = [self.of_rows(), Sequence::new(self.odometry, self.looks).remarks()].concat();
+        // Where clocks, units or scales are wrong, offsets are not known.
+        if let (Some(motion), true) = (self.motion, remarks.is_empty()) {
+            remarks.extend(offsets::remarks(self.odometry, self.looks, motion, self.sensor));
+        }
+        remarks
     }
 
     /// What rows and looks contradict, whatever lies between two looks.
@@ -176,7 +185,8 @@ mod tests {
             (time, vec![feature])
         };
         let looks: Vec<_> = (1..=100).map(look).collect();
-        Drive { odometry: &odometry, looks: &looks, used: [odometry[0][0], 100.0], sensor: &SENSOR }.of_rows()
+        Drive { odometry: &odometry, looks: &looks, used: [odometry[0][0], 100.0], sensor: &SENSOR, motion: None }
+            .of_rows()
     }
 
     #[test]

@@ -81,7 +81,7 @@ pub fn read(folder: &Path, car: &Car, sensor: &RangeBearing, named: bool) -> Res
     let log = LandmarkLog { landmarks: vec![Vector2::zeros(); trees], ..LandmarkLog::default() };
     let odometry: Vec<[f64; 3]> = velocities.collect();
     let used = mrclam::used(&odometry, &truth);
-    let remarks = Drive { odometry: &odometry, looks: &looks, used, sensor }.remarks();
+    let remarks = Drive { odometry: &odometry, looks: &looks, used, sensor, motion: None }.remarks();
     let log = mrclam::drive(log, &odometry, &truth, looks, |pose: &Pose2, control| car.apply(pose, control));
     if log.controls.is_empty() {
         bail!(Usage::of_file(folder, "nothing is seen in the time of both DRS.txt and GPS.txt"));
