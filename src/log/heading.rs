@@ -10,10 +10,12 @@ use fastslam::ops;
 /// are not is a coincidence.
 const ALONG: [f64; 2] = [0.8, 0.5];
 
+const DEGREE: f64 = PI / 180.0;
+
 /// Fewer motions are no evidence.
 const ENOUGH: usize = 10;
 
-/// Reads the headings of a log, or of its beginning or its end, as degrees, if that is what they are.
+/// Reads the headings of a log, or of one stretch of it, as degrees, if that is what they are.
 pub(super) fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
     let Some(degrees) = in_degrees(told) else { return };
     log.notes.remarks.push(if degrees.len() == told.len() {
@@ -43,34 +45,51 @@ pub(super) fn in_radians(log: &mut LaserLog, told: &[[f64; 3]]) {
 }
 
 /// Which poses \[m, as told\] tell of one motion only if their headings are degrees: wheels roll along the heading, or at one angle to it. All of them, or
-/// those before or after the one place where all others fit best as radians.
+/// the one stretch with which they fit best, where all others fit as radians.
 fn in_degrees(told: &[[f64; 3]]) -> Option<Range<usize>> {
     let beyond = |[_, _, theta]: &[f64; 3]| theta.abs() > 2.0 * PI;
     let (first, last) = (told.iter().position(beyond)?, told.iter().rposition(beyond)?);
     let all = 0..told.len();
-    let [in_degrees, in_radians] = [PI / 180.0, 1.0].map(|unit| Along::sums(told, unit));
+    let [in_degrees, in_radians] = [DEGREE, 1.0].map(|unit| Along::sums(told, unit));
+    let others = |degrees: &Range<usize>| {
+        Along::of(&in_radians, &(0..degrees.start)).plus(&Along::of(&in_radians, &(degrees.end..told.len())))
+    };
     let is = |degrees: &Range<usize>| {
-        let share = |sums: &[Along], part: &Range<usize>| Along::of(sums, part).share();
-        let others = if degrees.start == 0 { degrees.end..told.len() } else { 0..degrees.start };
-        share(&in_degrees, degrees).is_some_and(|share| share > ALONG[0])
-            && share(&in_radians, degrees).is_some_and(|share| share < ALONG[1])
-            && (others.is_empty() || share(&in_radians, &others).is_some_and(|share| share > ALONG[0]))
+        Along::of(&in_degrees, degrees).share().is_some_and(|share| share > ALONG[0])
+            && Along::of(&in_radians, degrees).share().is_some_and(|share| share < ALONG[1])
+            && (*degrees == all || others(degrees).share().is_some_and(|share| share > ALONG[0]))
             && (degrees.contains(&first) || degrees.contains(&last))
     };
-    let mut best = (0.0, all.clone());
-    for k in 1..told.len() {
-        let [before, after] = [0..k, k..told.len()];
-        for (degrees, radians, units) in [(&before, &after, [PI / 180.0, 1.0]), (&after, &before, [1.0, PI / 180.0])] {
-            let parts = [Along::of(&in_degrees, degrees), Along::of(&in_radians, radians)];
-            let fit =
-                parts.iter().fold(Along::step([told[k - 1], told[k]], units), |sum, part| sum.plus(part)).length();
-            if fit > best.0 && is(degrees) {
-                best = (fit, degrees.clone());
-            }
-        }
-    }
+    // The direction of most is about that of all, and then of all that are read as they should be.
+    let best = |sums: &Vec<Along>| {
+        let degrees = stretch(told, Along::of(sums, &all).sum);
+        stretch(told, Along::of(&in_degrees, &degrees).plus(&others(&degrees)).sum)
+    };
     // All of them, if that is what they may be.
-    [all, best.1].into_iter().find(is)
+    core::iter::once(all.clone()).chain([&in_radians, &in_degrees].map(best)).find(is)
+}
+
+/// The stretch of poses that lets the robot drive furthest in this direction with its headings in degrees, and all others in radians: the best of all
+/// ways through three parts, pose by pose (Viterbi 1967).
+fn stretch(told: &[[f64; 3]], [x, y]: [f64; 2]) -> Range<usize> {
+    // How far before, in and behind the stretch, and where it begins and ends.
+    let (mut before, mut within, mut behind) = (0.0, (0.0, 0), (f64::NEG_INFINITY, 0..0));
+    // A heading of 0 is the same in both units: nothing is won by a change there but an error of rounding.
+    let change = 1e-6 * ops::hypot(x, y);
+    for k in 1..told.len() {
+        let step = |units| {
+            let [along, aside] = Along::step([told[k - 1], told[k]], units).sum;
+            x * along + y * aside
+        };
+        let ends = (within.0 + step([DEGREE, 1.0]) - change, within.1..k);
+        let goes_on = behind.0 + step([1.0; 2]);
+        behind = if ends.0 > goes_on { ends } else { (goes_on, behind.1) };
+        let begins = (before + step([1.0, DEGREE]) - change, k);
+        let goes_on = within.0 + step([DEGREE; 2]);
+        within = if begins.0 > goes_on { begins } else { (goes_on, within.1) };
+        before += step([1.0; 2]);
+    }
+    if within.0 > behind.0 { within.1..told.len() } else { behind.1 }
 }
 
 /// Way that is driven, and in which direction as seen from the robot: twice the angle, as what drives back drives along the heading too.
@@ -117,14 +136,9 @@ impl Along {
         Self { sum, way: self.way + more.way, count: self.count + more.count }
     }
 
-    /// Way in the direction that is driven most \[m\].
-    fn length(&self) -> f64 {
-        ops::hypot(self.sum[0], self.sum[1])
-    }
-
     /// Share of the way in that direction.
     fn share(&self) -> Option<f64> {
-        (self.count >= ENOUGH).then(|| self.length() / self.way)
+        (self.count >= ENOUGH).then(|| ops::hypot(self.sum[0], self.sum[1]) / self.way)
     }
 }
 
@@ -190,9 +204,11 @@ mod tests {
     }
 
     #[test]
-    fn a_log_whose_beginning_or_end_is_in_degrees_is_read_as_one_in_radians() {
+    fn a_log_of_which_one_stretch_is_in_degrees_is_read_as_one_in_radians() {
         let plain = log(&square(1.0, true));
-        for (degrees, times) in [(100..240, [100.5, 239.6]), (0..90, [0.5, 89.6])] {
+        for (degrees, times) in
+            [(100..240, [100.5, 239.6]), (0..90, [0.5, 89.6]), (50..110, [50.5, 109.6]), (30..210, [30.5, 209.6])]
+        {
             let mut told = square(1.0, true);
             told[degrees.clone()].iter_mut().for_each(|[_, _, theta]| *theta = theta.to_degrees());
             assert_eq!(in_degrees(&told), Some(degrees.clone()));

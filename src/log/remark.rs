@@ -13,7 +13,7 @@ pub enum Remark {
     StillOdometry,
     /// Its headings are in degrees.
     HeadingsInDegrees,
-    /// Headings of its beginning, or of its end, are in degrees.
+    /// Headings of one stretch of it are in degrees.
     SomeHeadingsInDegrees {
         /// Stamp of the first pose whose heading is \[s\].
         from: f64,
