@@ -101,12 +101,12 @@ pub fn remarks(
     let [bearing, range] = offsets(odometry, looks, motion, sensor).unwrap_or_default();
     let bearing = (bearing != 0.0).then(|| {
         format!(
-            "bearings are {:+.1}° too far to the left all along, by odometry and landmarks together: check how the sensor is mounted",
+            "bearings are off by {:+.1}° all along (to the left is positive), by odometry and landmarks together: check how the sensor is mounted",
             bearing.to_degrees()
         )
     });
     let range = (range != 0.0).then(|| {
-        format!("ranges are {range:+.2} m too long all along, by odometry and landmarks together: check from where the sensor measures")
+        format!("ranges are off by {range:+.2} m all along, by odometry and landmarks together: check from where the sensor measures")
     });
     [bearing, range].into_iter().flatten().collect()
 }
@@ -314,10 +314,10 @@ mod tests {
     #[test]
     fn constant_offsets_of_bearings_and_ranges_are_told_by_how_much() {
         for (off, part) in [
-            ([0.0, 0.0873], "bearings are +"),
-            ([0.0, -0.0873], "bearings are -"),
-            ([0.3, 0.0], "ranges are +0."),
-            ([-0.3, 0.0], "ranges are -0."),
+            ([0.0, 0.0873], "bearings are off by +"),
+            ([0.0, -0.0873], "bearings are off by -"),
+            ([0.3, 0.0], "ranges are off by +0."),
+            ([-0.3, 0.0], "ranges are off by -0."),
         ] {
             let mut told = [0; 5];
             for seed in 1..=10 {

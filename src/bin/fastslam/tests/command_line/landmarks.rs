@@ -271,7 +271,7 @@ fn ranges_of_the_recorded_log_that_are_off_all_along_are_told() {
         std::fs::copy(format!("{prefix}-{of}.dat"), name(of)).unwrap();
     }
     let measured = std::fs::read_to_string(format!("{prefix}-robot1-measurement.dat")).unwrap();
-    for (off, part) in [(0.0, "[]"), (0.3, "ranges are +0."), (-0.3, "ranges are -0.")] {
+    for (off, part) in [(0.0, "[]"), (0.3, "ranges are off by +0."), (-0.3, "ranges are off by -0.")] {
         let moved = measured.lines().filter(|line| !line.starts_with('#')).map(|line| {
             let row: Vec<f64> = line.split_whitespace().map(|word| word.parse().unwrap()).collect();
             format!("{} {} {} {}\n", row[0], row[1], row[2] + off, row[3])
