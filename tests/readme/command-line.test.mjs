@@ -2,7 +2,7 @@
 // breadth: `cargo build` comes first.
 import assert from 'node:assert/strict'
 import { spawnSync } from 'node:child_process'
-import { copyFileSync, existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs'
 import { tmpdir } from 'node:os'
 import { join } from 'node:path'
 import { after, test } from 'node:test'
@@ -15,7 +15,11 @@ const folder = mkdtempSync(join(tmpdir(), 'readme-'))
 after(() => rmSync(folder, { recursive: true }))
 
 copyFileSync(join(root, 'tests', 'figures', 'golden', 'tiny.clf'), join(folder, 'tiny.clf'))
-copyFileSync(join(root, 'tests', 'bags', 'odometry-zstd.mcap'), join(folder, 'bag.mcap'))
+mkdirSync(join(folder, 'recording'))
+copyFileSync(join(root, 'tests', 'bags', 'odometry-zstd.mcap'), join(folder, 'recording', 'bag.mcap'))
+// Of one drive: scans that the second part repeats are left out.
+for (const [part, bag] of ['plain.bag', 'lz4.bag'].entries()) copyFileSync(join(root, 'tests', 'bags', bag), join(folder, `PART_${part}.bag`))
+writeFileSync(join(folder, 'robot.toml'), 'particles = 4\n')
 writeFileSync(join(folder, 'noise.toml'), 'range-std = 0.2\n')
 writeFileSync(join(folder, 'graph.g2o'), 'VERTEX_SE2 0 0 0 0\nVERTEX_XY 1 2 1\nVERTEX_SE2 2 1 0 0\nEDGE_SE2 0 2 1.1 0 0 100 0 0 100 0 400\nEDGE_SE2_XY 2 1 1 1 100 0 100\n')
 // A car that drives straight on, past one tree.
@@ -31,7 +35,7 @@ const smaller = [
   [/--sweeps \d+/, '--sweeps 2'],
   [/--length 120/, '--length 60'],
   [/FILE\.clf\.gz/, 'tiny.clf'],
-  [/FILE\.mcap --scan-topic \/front\/scan/, 'bag.mcap --scan-topic /scan'],
+  [/FOLDER --scan-topic \/front\/scan/, 'recording --scan-topic /scan'],
   [/FILE\.g2o/, 'graph.g2o'],
   [/\bFOLDER\b/, '.'],
   [/\.\.\/shared\//, join(root, '..', 'shared', '/')],
