@@ -44,7 +44,7 @@ pub fn parse(bytes: &[u8], lenient: bool) -> Result<LaserLog, LogError> {
     read(LogReader::new(lenient), bytes)
 }
 
-/// The same for programs that need no JSON and are lighter without: a line of it is malformed.
+/// Reads a log as [`parse`] does, for programs that are to be lighter without a reader of JSON: a line of JSON is malformed.
 ///
 /// # Errors
 /// As those of [`LogReader`].

@@ -150,19 +150,23 @@ fn driven(odometry: &[[f64; 3]], from: f64, until: f64) -> Velocity {
     if duration <= 0.0 {
         return Velocity { speed: 0.0, turn_rate: 0.0, duration: 0.0 };
     }
-    let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
     let (mut distance, mut turn) = (0.0, 0.0);
-    for k in first..odometry.len() {
-        let [time, speed, turn_rate] = odometry[k];
-        let begin = time.max(from);
-        if begin >= until {
-            break;
-        }
-        let held = odometry.get(k + 1).map_or(until, |next| next[0].min(until)) - begin;
-        distance += speed * held.max(0.0);
-        turn += turn_rate * held.max(0.0);
+    for Velocity { speed, turn_rate, duration } in held(odometry, from, until) {
+        distance += speed * duration;
+        turn += turn_rate * duration;
     }
     Velocity { speed: distance / duration, turn_rate: turn / duration, duration }
+}
+
+/// Readings that each hold until the next, between two times.
+pub fn held(odometry: &[[f64; 3]], from: f64, until: f64) -> impl Iterator<Item = Velocity> {
+    let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
+    let begun = (first..odometry.len()).take_while(move |k| odometry[*k][0].max(from) < until);
+    begun.filter_map(move |k| {
+        let [time, speed, turn_rate] = odometry[k];
+        let duration = odometry.get(k + 1).map_or(until, |next| next[0].min(until)) - time.max(from);
+        (duration > 0.0).then_some(Velocity { speed, turn_rate, duration })
+    })
 }
 
 /// The true pose at a time, interpolated.

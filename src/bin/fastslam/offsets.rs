@@ -3,6 +3,7 @@
 //! Two measurements of a landmark say little of it, as their own noise is taken for it. All measurements of a drive together say it: one Gaussian of the
 //! pose, the landmarks and what is constant, as in EKF-SLAM, in which scale and drift of the odometry are constants, too.
 
+use crate::mrclam::held;
 use fastslam::geometry::Pose2;
 use fastslam::motion::{Motion, Velocity, VelocityDiffusion};
 use fastslam::nalgebra::{DMatrix, DVector, Matrix2, SMatrix, Vector2};
@@ -59,7 +60,7 @@ pub fn offsets(
         let mut joint = Joint::new(*motion, *sensor);
         let mut now = bound(k);
         for (time, features) in within {
-            joint.drive(odometry, now, *time);
+            held(odometry, now, *time).for_each(|reported| joint.step(&reported));
             now = *time;
             features.iter().for_each(|feature| joint.see(feature));
         }
@@ -134,22 +135,6 @@ impl Joint {
 
     fn pose(&self) -> Pose2 {
         Pose2::new(self.mean[0], self.mean[1], self.mean[2])
-    }
-
-    /// Drives by the rows of odometry between two times.
-    fn drive(&mut self, odometry: &[[f64; 3]], from: f64, until: f64) {
-        let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
-        for k in first..odometry.len() {
-            let [time, speed, turn_rate] = odometry[k];
-            let begin = time.max(from);
-            if begin >= until {
-                break;
-            }
-            let duration = odometry.get(k + 1).map_or(until, |next| next[0].min(until)) - begin;
-            if duration > 0.0 {
-                self.step(&Velocity { speed, turn_rate, duration });
-            }
-        }
     }
 
     fn step(&mut self, reported: &Velocity) {

@@ -27,6 +27,15 @@ impl CellRect {
         (self.j1 - self.j0).max(0) as usize
     }
 
+    /// The place of a cell in it, row by row; `None` of one outside.
+    #[inline]
+    pub(super) fn index(self, i: i32, j: i32) -> Option<usize> {
+        // Unsigned, a column left of the first is a large number: one comparison for each axis.
+        let (column, width) = (i.wrapping_sub(self.i0) as u32, (self.i1 - self.i0) as u32);
+        let (row, height) = (j.wrapping_sub(self.j0) as u32, (self.j1 - self.j0) as u32);
+        (column < width && row < height).then(|| (row * width + column) as usize)
+    }
+
     /// Whether the other one is within this one.
     pub(super) fn covers(self, other: Self) -> bool {
         self.i0 <= other.i0 && self.j0 <= other.j0 && self.i1 >= other.i1 && self.j1 >= other.j1
@@ -54,11 +63,7 @@ pub(super) struct Directory<const CELLS_PER_NDT: usize> {
 impl<const CELLS_PER_NDT: usize> Directory<CELLS_PER_NDT> {
     #[inline]
     pub(super) fn index(&self, ti: i32, tj: i32) -> Option<usize> {
-        let CellRect { i0, j0, i1, j1 } = self.rect;
-        // Unsigned, a column left of the first is a large number: one comparison for each axis.
-        let (column, width) = (ti.wrapping_sub(i0) as u32, (i1 - i0) as u32);
-        let (row, height) = (tj.wrapping_sub(j0) as u32, (j1 - j0) as u32);
-        (column < width && row < height).then(|| (row * width + column) as usize)
+        self.rect.index(ti, tj)
     }
 
     #[inline]

@@ -14,8 +14,6 @@ pub(crate) struct LocalMap<const CELLS_PER_NDT: usize> {
     grid: Grid<CELLS_PER_NDT>,
     /// In NDT cells.
     rect: CellRect,
-    /// Columns and rows of it.
-    size: [u32; 2],
     /// One for each lane, which a point outside the rectangle is compared with, and then all within it, in the order in which they were asked for.
     quads: Vec<Quad>,
     /// By the NDT cell at its lower left: the index of a quad, or 0 where none was asked for yet.
@@ -38,8 +36,7 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
             j1: clip(j.saturating_add(reach + TILE), known.j0, known.j1),
         };
         let places = vec![0; rect.width() * rect.height()];
-        let size = [rect.width(), rect.height()].map(|count| count as u32);
-        Self { grid, rect, size, quads: vec![Quad::UNKNOWN; LANES], places, distances: Vec::new() }
+        Self { grid, rect, quads: vec![Quad::UNKNOWN; LANES], places, distances: Vec::new() }
     }
 
     /// The same with the distance field, if the grid keeps one.
@@ -67,9 +64,9 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
     /// The indices of the quads of these corners.
     #[inline]
     fn quads_at(&mut self, corners: &Corners) -> [usize; LANES] {
-        let [i, j] = corners.cell;
-        let [columns, rows] = self.size.map(|count| i32x4::splat(count as i32));
-        let (column, row) = (i - self.rect.i0, j - self.rect.j0);
+        let ([i, j], CellRect { i0, j0, i1, j1 }) = (corners.cell, self.rect);
+        let (columns, rows) = (i32x4::splat(i1 - i0), i32x4::splat(j1 - j0));
+        let (column, row) = (i - i0, j - j0);
         let none = i32x4::splat(-1);
         let inside = column.cmp_gt(none) & row.cmp_gt(none) & columns.cmp_gt(column) & rows.cmp_gt(row);
         if !inside.all() {
@@ -86,7 +83,7 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
     #[inline(never)]
     fn quads_anywhere(&mut self, corners: &Corners) -> [usize; LANES] {
         let [i, j] = corners.cell.map(i32x4::to_array);
-        core::array::from_fn(|k| match self.place(i[k], j[k]) {
+        core::array::from_fn(|k| match self.rect.index(i[k], j[k]) {
             Some(place) if self.places[place] == 0 => self.add_quad(place),
             Some(place) => self.places[place] as usize,
             None => {
@@ -100,26 +97,18 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
     #[cold]
     #[inline(never)]
     fn add_quad(&mut self, place: usize) -> usize {
-        let (row, column) = (place as i32 / self.size[0] as i32, place as i32 % self.size[0] as i32);
+        let columns = self.rect.width();
+        let (column, row) = ((place % columns) as i32, (place / columns) as i32);
         self.quads.push(self.grid.quad(self.rect.i0 + column, self.rect.j0 + row));
         self.places[place] = self.quads.len() as u32 - 1;
         self.quads.len() - 1
-    }
-
-    /// Of an NDT cell in the rectangle.
-    #[inline]
-    fn place(&self, i: i32, j: i32) -> Option<usize> {
-        let [columns, rows] = self.size;
-        // Unsigned, a column left of the first is a large number: one comparison for each axis.
-        let (column, row) = (i.wrapping_sub(self.rect.i0) as u32, j.wrapping_sub(self.rect.j0) as u32);
-        (column < columns && row < rows).then(|| (row * columns + column) as usize)
     }
 
     /// The distance field \[NDT cells\] at a point given in NDT cells: 0 where an end point fell, [`MAX_DISTANCE`] where none fell near.
     #[inline]
     pub fn distance(&self, u: f64, v: f64) -> usize {
         let (i, j) = (fast_floor(u), fast_floor(v));
-        let distance = self.place(i, j).and_then(|place| self.distances.get(place));
+        let distance = self.rect.index(i, j).and_then(|place| self.distances.get(place));
         distance.map_or_else(|| self.grid.distance(i, j), |distance| usize::from(*distance))
     }
 
