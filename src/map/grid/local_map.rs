@@ -8,6 +8,9 @@ use wide::{CmpGt, f64x4, i32x4};
 /// Farthest from the robot that anything is kept for \[m\]; what lies beyond is looked up in the grid.
 const RADIUS: f64 = 12.0;
 
+/// About as many quads as the poses of one step ask for: room for them is asked for once.
+const USUAL_QUADS: usize = 512;
+
 /// A grid around a place, without the two levels of pointers that it has. What end points are compared with is put together where one falls
 /// for the first time: poses that are tried in one step differ by little, so that each is asked for again some ten times.
 pub(crate) struct LocalMap<const CELLS_PER_NDT: usize> {
@@ -36,7 +39,9 @@ impl<const CELLS_PER_NDT: usize> LocalMap<CELLS_PER_NDT> {
             j1: clip(j.saturating_add(reach + TILE), known.j0, known.j1),
         };
         let places = vec![0; rect.width() * rect.height()];
-        Self { grid, rect, quads: vec![Quad::UNKNOWN; LANES], places, distances: Vec::new() }
+        let mut quads = Vec::with_capacity(USUAL_QUADS);
+        quads.resize(LANES, Quad::UNKNOWN);
+        Self { grid, rect, quads, places, distances: Vec::new() }
     }
 
     /// The same with the distance field, if the grid keeps one.
