@@ -20,6 +20,7 @@ use crate::proposal::{Proposal, ProposalTrace, Proposed};
 use crate::random::{Purpose, Stream};
 use crate::resampling::{ResamplePolicy, Scheme};
 use crate::weights::Weights;
+use core::ops::Range;
 
 /// What one step did. `A` is what a map takes an observation for: [`ConditionalMap::Association`].
 #[derive(Clone, Debug)]
@@ -156,65 +157,92 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
 
     /// One step of the filter: propose, map, weigh, and select if the policy calls for it.
     pub fn step(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
-        let mut report = self.weigh(control, observation);
+        self.step_proposed(control, observation, self.propose(control, observation, 0..self.particles.len()))
+    }
+
+    /// [`Self::step`], where the draws of all slots are there, in their order, as [`Self::propose`] has them.
+    ///
+    /// # Panics
+    /// Where there are not as many as slots.
+    pub fn step_proposed(
+        &mut self,
+        control: &P::Control,
+        observation: &M::Observation,
+        proposed: Vec<Proposed<M::Association>>,
+    ) -> Report<M::Association> {
+        let mut report = self.weigh_proposed(control, observation, proposed);
         report.ancestors = self.select(report.selection_ess);
         report
     }
 
     /// The first half of a step: every particle draws its new pose, pays for it, and maps what it sees from there.
     pub fn weigh(&mut self, control: &P::Control, observation: &M::Observation) -> Report<M::Association> {
-        let report = self.weigh_by(observation, |proposal, _, particle, streams| {
-            proposal.propose_copies(particle, control, observation, streams)
-        });
-        Report { refused_control: !self.proposal.can_drive(control), ..report }
+        let proposed = self.propose(control, observation, 0..self.particles.len());
+        self.weigh_proposed(control, observation, proposed)
     }
 
-    /// [`Self::weigh`] with other draws: `propose` for equal particles in the slots from a first one on, from the stream of each.
-    fn weigh_by(
-        &mut self,
+    /// What the particles in these slots draw in the next step, which nothing of the filter is changed by. A slot draws the same whichever others
+    /// are asked for, so that several programs that hold the same filter can each work out a part.
+    ///
+    /// # Panics
+    /// Where there are not so many slots.
+    pub fn propose(
+        &self,
+        control: &P::Control,
         observation: &M::Observation,
-        propose: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
+        slots: Range<usize>,
+    ) -> Vec<Proposed<M::Association>> {
+        self.propose_by(slots, |proposal, _, particle, streams| {
+            proposal.propose_copies(particle, control, observation, streams)
+        })
+    }
+
+    /// [`Self::weigh`], where the draws of all slots are there.
+    fn weigh_proposed(
+        &mut self,
+        control: &P::Control,
+        observation: &M::Observation,
+        mut proposed: Vec<Proposed<M::Association>>,
     ) -> Report<M::Association> {
+        assert_eq!(proposed.len(), self.particles.len(), "a draw for each slot");
         (self.step, self.resamplings) = (self.step + 1, 0);
         let ignored = self.particles[0].map.ignored(observation);
-        let proposed = self.propose_and_map(observation, propose);
+        self.assimilate(observation, &mut proposed);
         self.extend_paths();
         let log_increments: Vec<f64> = proposed.iter().map(|p| p.log_increment).collect();
         let log_evidence = self.reweigh(&log_increments);
-        Report { ignored, ..self.report(proposed, log_increments, log_evidence) }
+        let refused_control = !self.proposal.can_drive(control);
+        Report { ignored, refused_control, ..self.report(proposed, log_increments, log_evidence) }
     }
 
-    /// Draws a pose for each particle, and updates its map from there. A slot depends on no other, except that neighbouring copies of one
-    /// particle are proposed together, so that it does not matter who computes which.
-    fn propose_and_map(
-        &mut self,
-        observation: &M::Observation,
+    /// Draws a pose for the particle of each of these slots: `propose` for equal particles in the slots from a first one on, from the stream of each.
+    /// A slot depends on no other, except that neighbouring copies of one particle are proposed together, so that it does not matter who computes
+    /// which.
+    fn propose_by(
+        &self,
+        slots: Range<usize>,
         propose: impl Fn(&P, usize, &Particle<M>, &mut [Stream]) -> Vec<Proposed<M::Association>> + Sync + Send,
     ) -> Vec<Proposed<M::Association>> {
-        let (proposal, seed, step) = (&self.proposal, self.seed, self.step);
-        let mut copied = core::mem::take(&mut self.copied);
-        if copied.is_empty() {
-            copied = (0..self.particles.len() as u32).collect();
-        }
-        let (mut alike, mut rest) = (Vec::new(), &mut self.particles[..]);
-        for slots in copied.chunk_by(|a, b| a == b) {
-            let first = copied.len() - rest.len();
-            let (particles, others) = rest.split_at_mut(slots.len());
-            alike.push((first, particles));
-            rest = others;
-        }
-        let proposed = self.executor.map(&mut alike, |_, (first, particles)| {
-            let slots = *first..*first + particles.len();
-            let mut streams: Vec<_> =
-                slots.map(|slot| Stream::at(seed, Purpose::PROPOSAL, step, slot as u32)).collect();
-            let proposed = propose(proposal, *first, &particles[0], &mut streams);
-            for (particle, proposed) in particles.iter_mut().zip(&proposed) {
-                particle.world_from_robot = proposed.world_from_robot;
-                particle.map.assimilate(&proposed.world_from_robot, observation, &proposed.association);
-            }
-            proposed
+        let step = self.step + 1;
+        let particle = |slot: usize| self.copied.get(slot).map_or(slot, |slot| *slot as usize);
+        let all: Vec<usize> = slots.collect();
+        let mut alike: Vec<&[usize]> = all.chunk_by(|a, b| particle(*a) == particle(*b)).collect();
+        let proposed = self.executor.map(&mut alike, |_, slots| {
+            let stream = |slot: &usize| Stream::at(self.seed, Purpose::PROPOSAL, step, *slot as u32);
+            let mut streams: Vec<_> = slots.iter().map(stream).collect();
+            propose(&self.proposal, slots[0], &self.particles[slots[0]], &mut streams)
         });
         proposed.into_iter().flatten().collect()
+    }
+
+    /// Moves each particle to the pose it drew, and updates its map from there.
+    fn assimilate(&mut self, observation: &M::Observation, proposed: &mut [Proposed<M::Association>]) {
+        self.copied = Vec::new();
+        let mut drawn: Vec<_> = self.particles.iter_mut().zip(proposed).collect();
+        self.executor.map(&mut drawn, |_, (particle, Proposed { world_from_robot, association, .. })| {
+            particle.world_from_robot = *world_from_robot;
+            particle.map.assimilate(world_from_robot, observation, association);
+        });
     }
 
     /// Appends the new poses to the paths.

@@ -15,7 +15,7 @@ impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
         given: &Pose2,
     ) -> Report<M::Association> {
         let last = self.particles().len() - 1;
-        let report = self.weigh_by(observation, |proposal, first, particle, streams| {
+        let proposed = self.propose_by(0..last + 1, |proposal, first, particle, streams| {
             let one = |(slot, stream)| {
                 if slot == last {
                     proposal.retrace(particle, control, observation, given)
@@ -25,6 +25,6 @@ impl<M: ConditionalMap, P: Retrace<M>> Rbpf<M, P> {
             };
             (first..).zip(streams).map(one).collect()
         });
-        Report { refused_control: !self.proposal.can_drive(control), ..report }
+        self.weigh_proposed(control, observation, proposed)
     }
 }

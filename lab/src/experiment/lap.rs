@@ -7,6 +7,7 @@
 
 mod course;
 mod setup;
+pub mod shared;
 mod world;
 
 pub use course::{Course, Route};
@@ -24,7 +25,7 @@ use fastslam::motion::OdometryModel;
 use fastslam::particle::Particle;
 use fastslam::proposal::{
     Either, FitLimits, FromMotion, FromScan, FromScanSettings, HeadingSeeds, IncrementalWeight, ProposalTrace,
-    ScanAtDraw,
+    Proposed, ScanAtDraw,
 };
 use fastslam::rbpf::{Rbpf, Report};
 use fastslam::resampling::ResamplePolicy;
@@ -231,16 +232,32 @@ impl Lap {
 
     /// One step of the filter; `None` after the last.
     pub fn step(&mut self) -> Option<&StepReport> {
-        let report = self.advance()?;
+        self.step_by(None)
+    }
+
+    /// The same, where the draws of all slots are there: those of [`Self::propose`].
+    pub fn step_by(&mut self, proposed: Option<Vec<Proposed<()>>>) -> Option<&StepReport> {
+        let report = self.advance_by(proposed)?;
         self.report = self.judge(report);
         Some(&self.report)
     }
 
     /// One step of the filter, without a comparison with the truth: [`Self::report`] stays that of an earlier step.
     pub fn advance(&mut self) -> Option<Report<()>> {
-        let k = self.step_now() as usize;
-        let (control, scan) = (self.world.controls.get(k)?, self.world.scans.get(k)?);
-        Some(self.filter.step(control, scan))
+        self.advance_by(None)
+    }
+
+    /// The same, where the draws of all slots are there.
+    pub fn advance_by(&mut self, proposed: Option<Vec<Proposed<()>>>) -> Option<Report<()>> {
+        let (control, scan) = self.world.told(self.step_now())?;
+        let proposed = proposed.unwrap_or_else(|| self.filter.propose(control, scan, 0..self.particles().len()));
+        Some(self.filter.step_proposed(control, scan, proposed))
+    }
+
+    /// What the particles in these slots draw in the next step; nothing after the last.
+    pub fn propose(&self, slots: core::ops::Range<usize>) -> Vec<Proposed<()>> {
+        let step = self.world.told(self.step_now());
+        step.map_or_else(Vec::new, |(control, scan)| self.filter.propose(control, scan, slots))
     }
 
     /// One step of the filter, while there is one. Only the last is compared with the truth.

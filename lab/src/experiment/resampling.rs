@@ -14,6 +14,7 @@
 pub mod counts;
 mod run;
 mod setup;
+mod shared;
 
 pub use setup::{PoliciesSetup, PolicyCourse};
 
@@ -27,6 +28,7 @@ use fastslam::execute::Executor;
 use fastslam::genealogy::{Descent, Path};
 use fastslam::geometry::{Pose2, rms};
 use fastslam::ops;
+use fastslam::proposal::Proposed;
 use fastslam::sensor::Feature;
 use run::{Run, Stepped, World};
 
@@ -177,19 +179,24 @@ impl Policies {
     /// A third of a step, so that a page is not blocked by all three: the next filter makes its step. Returns whether it was the last of the three,
     /// after which [`Self::reports`] are those of the new step; `None` after the last step.
     pub fn advance(&mut self) -> Option<bool> {
+        self.advance_by(&mut [const { None }; 3])
+    }
+
+    /// The same with the draws of each filter, where they are there.
+    fn advance_by(&mut self, proposed: &mut [Option<Vec<Proposed<()>>>; 3]) -> Option<bool> {
         if self.catches_up() {
-            let stepped = self.selective.as_mut()?.step()?;
+            let stepped = self.selective.as_mut()?.step(None)?;
             self.reports[SELECTIVE] = self.judge(SELECTIVE, stepped);
             return Some(true);
         }
         let report = match self.next.len() {
             NEVER => {
                 self.before = self.selective.is_none().then(|| self.never.clone());
-                let stepped = self.never.step()?;
+                let stepped = self.never.step(proposed[NEVER].take())?;
                 self.judge(NEVER, stepped)
             }
             ALWAYS => {
-                let stepped = self.always.step()?;
+                let stepped = self.always.step(proposed[ALWAYS].take())?;
                 self.judge(ALWAYS, stepped)
             }
             _ => {
@@ -200,7 +207,7 @@ impl Policies {
                 match &mut self.selective {
                     None => self.next[NEVER].clone(),
                     Some(run) => {
-                        let stepped = run.step()?;
+                        let stepped = run.step(proposed[SELECTIVE].take())?;
                         self.judge(SELECTIVE, stepped)
                     }
                 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::experiment::ProposalKind;
 use crate::world::{FloorPlan, drive};
 use fastslam::ops;
 
@@ -87,4 +88,22 @@ fn each_course_has_its_own_world() {
     assert!(furthest(&apartment) > 4.0 && [&ring, &rooms].iter().all(|lap| furthest(lap) <= 3.0 + 1e-9));
     assert_eq!(apartment.world().plan, FloorPlan::apartment());
     assert_eq!(COURSES.map(Course::closing), [None, Some(84), Some(80)]);
+}
+
+/// The draws go through numbers, as between two programs; an odd population has parts of two sizes.
+#[test]
+fn a_step_of_which_two_draw_a_part_each_is_the_step_of_one() {
+    for (proposal, particles) in [(ProposalKind::Improved, 7), (ProposalKind::Motion, 4), (ProposalKind::Improved, 1)] {
+        let setup = LapSetup { proposal, particles, ..LapSetup::default() };
+        let [mut alone, mut shared] = [(); 2].map(|()| Lap::new(&setup).unwrap());
+        while alone.step().is_some() {
+            let part = |part| shared::to_numbers(&shared.propose(shared::slots(part, particles)));
+            let numbers = [part(0), part(1)].concat();
+            assert_eq!(numbers.len(), particles * shared::NUMBERS);
+            shared.step_by(Some(shared::from_numbers(&numbers)));
+            assert_eq!(format!("{:?}", shared.report()), format!("{:?}", alone.report()), "{proposal}, {particles}");
+        }
+        assert!(shared.propose(0..particles).is_empty(), "after the last step");
+        assert_eq!(shared.trace().value(), alone.trace().value());
+    }
 }

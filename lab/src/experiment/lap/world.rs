@@ -42,6 +42,11 @@ pub(super) struct Noise {
 }
 
 impl LapWorld {
+    /// Control and scan of the step after so many; none after the last.
+    pub(super) fn told(&self, made: u32) -> Option<(&Odometry, &Scan)> {
+        Some((self.controls.get(made as usize)?, self.scans.get(made as usize)?))
+    }
+
     /// The lap of the apartment that this seed and these noises give: the truth is always the same.
     pub fn new(seed: u64, motion: &OdometryModel, range_std: f64) -> Self {
         Self::on(&Course::Apartment.route(), seed, motion, range_std)

@@ -10,6 +10,7 @@ use fastslam::error::SettingError;
 use fastslam::execute::Executor;
 use fastslam::genealogy::{Descent, Path};
 use fastslam::geometry::Pose2;
+use fastslam::proposal::Proposed;
 use fastslam::resampling::ResamplePolicy;
 use std::sync::Arc;
 
@@ -81,9 +82,10 @@ impl Run {
         }
     }
 
-    pub(super) fn step(&mut self) -> Option<Stepped> {
+    /// One step; on the lap with these draws, where they are there.
+    pub(super) fn step(&mut self, proposed: Option<Vec<Proposed<()>>>) -> Option<Stepped> {
         match self {
-            Self::Lap(run) => run.advance().map(|report| Stepped {
+            Self::Lap(run) => run.advance_by(proposed).map(|report| Stepped {
                 log_evidence: report.log_evidence,
                 ess: report.ess,
                 ancestors: report.ancestors,

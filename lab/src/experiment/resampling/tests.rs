@@ -114,3 +114,26 @@ fn settings_out_of_range_are_refused_by_name() {
         assert_eq!(Policies::new(&setup).unwrap_err().field(), name);
     }
 }
+
+/// Also in the step in which the selective filter branches off, where another's parts come, and in the middle of a step.
+#[test]
+fn a_step_of_which_two_draw_a_part_each_is_the_step_of_one() {
+    let setup = PoliciesSetup { particles: 6, threshold: 0.6, ..PoliciesSetup::of(PolicyCourse::Lap) };
+    let [mut alone, mut shared] = [(); 2].map(|()| Policies::new(&setup).unwrap());
+    let mut filters = BTreeSet::new();
+    while alone.step().is_some() {
+        let parts = [0, 1].map(|part| shared.propose(part));
+        filters.insert(parts[0].len());
+        match shared.step_number() {
+            10 => shared.step_by([&parts[0][1..], &parts[1]]),
+            20 => {
+                shared.advance();
+                assert!(shared.propose(0).is_empty());
+                shared.step_by([&parts[0], &parts[1]]);
+            }
+            _ => shared.step_by([&parts[0], &parts[1]]),
+        }
+        assert_eq!(shared.reports(), alone.reports());
+    }
+    assert_eq!(filters.len(), 2, "two filters, and later three");
+}
