@@ -251,7 +251,7 @@ export class Figure implements Listener {
     if (!this.host) return
     const plays = this.life.playback.playing && this.frames.inView
     if (plays && !this.host.busy) this.#advance(now)
-    this.host?.work(WORK_SLICE)
+    this.host?.work(WORK_SLICE, true)
     this.#paint(now)
     if (plays || this.host?.busy) this.wake()
   }
@@ -272,9 +272,9 @@ export class Figure implements Listener {
     do {
       await yieldToMain()
       if (!this.host || this.host.remote || !this.frames.waiting) break
-      this.host.work(WORK_SLICE)
+      this.host.work(WORK_SLICE, true)
       if (this.#pictured && !this.host.busy) this.#paint(performance.now())
-    } while (this.host?.busy)
+    } while (this.host?.busy && !this.host.waits)
     this.#catchingUp = false
   }
 

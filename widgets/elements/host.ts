@@ -114,13 +114,29 @@ export interface Job {
   to: number
 }
 
-/** What a worker is asked: seeds of a job, every so many; or to be the host of a figure, and then its commands. */
-export type WorkerRequest = { do: 'job'; module: WebAssembly.Module; job: Job; every: number } | { do: 'figure'; module: WebAssembly.Module; tag: string } | Command
+/** What is asked of the partner of a figure on the page: to begin what a link says, and then step by step its part for the page's. */
+export type PartnerRequest =
+  | { do: 'partner'; module: WebAssembly.Module; tag: string }
+  | { do: 'begin-part'; run: number; query: string }
+  | { do: 'part'; run: number; part: Float64Array }
+
+/** What a worker is asked: seeds of a job, every so many; or to be the host of a figure, and then its commands; or the partner of one. */
+export type WorkerRequest =
+  | { do: 'job'; module: WebAssembly.Module; job: Job; every: number }
+  | { do: 'figure'; module: WebAssembly.Module; tag: string }
+  | PartnerRequest
+  | Command
 
 /** A frame as it is sent: its pixels are a copy, which goes over to the page. */
 export type SentFrame = Omit<Frame, 'picture'> & { picture: { width: number; height: number; pixels: Uint8ClampedArray<ArrayBuffer> } | undefined }
 
-export type WorkerResponse = Answer | { told: 'frame'; frame: SentFrame } | { told: 'rows'; seed: number; rows: number[][] } | { told: 'done' }
+export type WorkerResponse =
+  | Answer
+  | { told: 'frame'; frame: SentFrame }
+  | { told: 'rows'; seed: number; rows: number[][] }
+  | { told: 'done' }
+  | { told: 'ready' }
+  | { told: 'part'; run: number; part: Float64Array }
 
 /** What a host tells its figure. */
 export interface Listener {
@@ -132,6 +148,8 @@ export interface Listener {
 export interface FigureHost {
   /** Whether it works and paints by itself, seen or not. */
   readonly remote: boolean
+  /** Whether a worker has to say its part first; the figure is woken then. */
+  readonly waits: boolean
   /** What is set, and how far it is, as known here; undefined before anything is. */
   readonly state: ProgramState | undefined
   readonly busy: boolean
@@ -139,8 +157,8 @@ export interface FigureHost {
   readonly sent: number
   readonly done: number
   send(command: Command): void
-  /** Goes on for so long [ms], if it is on its way to what was asked for. */
-  work(budget: number): void
+  /** Goes on for so long [ms], if it is on its way to what was asked for; or with a worker, from one part of that to the next. */
+  work(budget: number, shared?: boolean): void
   /**
    * What there is to show, if it is new. On the way to what was asked for there is nothing: what was shown before stays until that is there.
    * `now` in [ms]; without it at once, new or not, and what is told once is not told yet.

@@ -1,5 +1,6 @@
 // A figure whose program runs on the page: commands are calls, and what they do can be read at once.
 import { HostMemory, keptAs, type Command, type FigureHost, type Frame, type Listener } from './host'
+import { Partner } from './partner'
 import type { InstanceUser, Program } from './program'
 import { trapMessage, type ProgramState, type Shell } from './shell'
 import { Session } from './session'
@@ -18,6 +19,8 @@ export class LocalHost implements FigureHost, InstanceUser {
   #asked = true // something, since then
   readonly #memory = new HostMemory()
   #trapped = false // it was this figure that killed the instance
+  #partner: Partner | undefined // once there was enough to do for two
+  #part: Float64Array = new Float64Array() // of the step that it works out
   #known: ProgramState | undefined // as it was asked to be, for the time without a session
 
   private constructor(
@@ -58,7 +61,13 @@ export class LocalHost implements FigureHost, InstanceUser {
     else this.#queue.push(command)
   }
 
-  work(budget: number): void {
+  get waits(): boolean {
+    return this.#partner?.waits ?? false
+  }
+
+  work(budget: number, shared = false): void {
+    if (shared && (this.waits || this.#share())) return
+    this.#partner?.stop()
     this.#ask(session => {
       const end = performance.now() + budget
       while (session.pending && performance.now() < end) {
@@ -84,7 +93,31 @@ export class LocalHost implements FigureHost, InstanceUser {
     this.#dirty = true
   }
 
+  /** Has the partner begin, where there is enough to do for two. Whether it does. */
+  #share(): boolean {
+    if (!this.#ask(session => session.shares)) return false
+    this.#partner ??= new Partner(this.program, this.tag, part => this.#hearPart(part))
+    const partner = this.#partner
+    if (!partner.isReady()) return false
+    partner.begin(this.state!.query)
+    this.#givePart()
+    return true
+  }
+
+  #givePart(): void {
+    this.#ask(session => this.#partner!.give((this.#part = session.part(0))))
+  }
+
+  #hearPart(part: Float64Array): void {
+    this.#ask(session => session.workWith(this.#part, part))
+    this.#dirty = true
+    if (this.busy && !this.#partner!.isSlow) return this.#givePart()
+    this.#partner!.stop()
+    this.listener.wake()
+  }
+
   free(): void {
+    this.#partner?.end()
     this.program.users.delete(this)
     this.#ask(session => session.free())
     this.#session = undefined
@@ -107,6 +140,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   #carryOut(command: Command): void {
+    this.#partner?.stop()
     this.#dirty = this.#asked = true
     this.#ask(session => {
       void session.do(command)
@@ -116,6 +150,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   }
 
   lose(): void {
+    this.#partner?.stop()
     this.#session?.abandon()
     this.#session = undefined
   }

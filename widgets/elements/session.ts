@@ -100,6 +100,21 @@ export class Session {
     this.ask(figure => figure.work())
   }
 
+  /** Whether that is so much that it is to be shared. */
+  get shares(): boolean {
+    return this.figure.shares()
+  }
+
+  /** The first or the second part of what the next step is made of. */
+  part(part: 0 | 1): Float64Array {
+    return this.figure.part(part)
+  }
+
+  /** Does a step of which both parts are known. */
+  workWith(first: Float64Array, second: Float64Array): void {
+    this.ask(figure => figure.work_with(first, second))
+  }
+
   free(): void {
     this.figure.free()
   }

@@ -7,6 +7,7 @@ import type { ProgramState } from './shell'
 
 export class WorkerHost implements FigureHost {
   readonly remote = true
+  readonly waits = false
   #worker: Worker | undefined
   sent = 0
   #before = 0 // commands of workers that have died
@@ -94,7 +95,7 @@ export class WorkerHost implements FigureHost {
   }
 
   #hear(response: WorkerResponse): void {
-    if (response.told === 'rows' || response.told === 'done') return
+    if (response.told === 'rows' || response.told === 'done' || response.told === 'ready' || response.told === 'part') return
     if (response.told !== 'frame') return this.listener.hear(response)
     const { frame } = response
     // What was not looked at in time is not lost with the frame that it came with.

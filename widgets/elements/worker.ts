@@ -1,9 +1,9 @@
 // What runs beside the page, in an instance of its own of the program that the page has compiled: experiments, seed by seed, and the
 // sessions of figures that would keep the page waiting.
-import type { WorkerRequest, WorkerResponse } from './host'
+import type { PartnerRequest, WorkerRequest, WorkerResponse } from './host'
 import { createShell } from './generated/shell'
 import { LogSession } from './log-session'
-import { trapMessage, type Shell } from './shell'
+import { trapMessage, type Shell, type ShellFigure } from './shell'
 import { Session } from './session'
 import { yieldToMain } from './yield'
 
@@ -13,6 +13,7 @@ const SHARE = 4 // … and at least so many times as long as it took to paint on
 
 let shell: Shell | undefined
 let session: Session | undefined
+let partner: { figure: ShellFigure; run: number; part: Float64Array } | undefined
 let dead = false
 let working = false
 let willShow: Promise<void> | undefined
@@ -44,6 +45,7 @@ async function carryOut(request: WorkerRequest): Promise<void> {
     session = new (request.tag === 'fastslam-log' ? LogSession : Session)(shell, request.tag, tell)
     return
   }
+  if (request.do === 'partner' || request.do === 'begin-part' || request.do === 'part') return takePart(request)
   await session!.do(request)
   void show()
   void work()
@@ -53,6 +55,24 @@ async function run({ module, job: { name, query, from, to }, every }: Extract<Wo
   shell = await createShell(module)
   for (let seed = from; seed < to; seed += every) tell({ told: 'rows', seed, rows: shell.job(name, query, seed, seed + 1) as number[][] })
   tell({ told: 'done' })
+}
+
+/** Works out the second part of each step of a figure on the page, and makes the step with the first. */
+async function takePart(request: PartnerRequest): Promise<void> {
+  if (request.do === 'partner') {
+    shell = await createShell(request.module)
+    partner = { figure: new shell.Figure(request.tag), run: 0, part: new Float64Array() }
+    return tell({ told: 'ready' })
+  }
+  const { figure } = partner!
+  if (request.do === 'begin-part') {
+    partner!.run = request.run
+    figure.act({ do: 'begin', value: request.query, name: '', on: false })
+  } else if (request.run === partner!.run) figure.work_with(request.part, partner!.part)
+  else return
+  if (!figure.pending()) return
+  partner!.part = figure.part(1)
+  tell({ told: 'part', run: request.run, part: partner!.part })
 }
 
 /** Works, a slice at a time, as long as there is something to do. */

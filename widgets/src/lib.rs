@@ -11,6 +11,7 @@ pub mod order;
 mod policy;
 pub mod registry;
 mod robot;
+mod shared;
 #[cfg(target_arch = "wasm32")]
 pub mod shell;
 mod told;

@@ -239,6 +239,21 @@ impl Figure {
         self.figure.work();
     }
 
+    /// Whether that is so much that another program is worth asking for a part of each step.
+    pub fn shares(&self) -> bool {
+        self.figure.shares()
+    }
+
+    /// Part 0 or 1 of what the next step is made of: the same in every program that is at this step of this link.
+    pub fn part(&self, part: usize) -> Vec<f64> {
+        self.figure.part(part)
+    }
+
+    /// Does a step of which both parts are known.
+    pub fn work_with(&mut self, first: &[f64], second: &[f64]) {
+        self.figure.work_with([first, second]);
+    }
+
     /// Takes a reader's file; throws a `FigureError` if it cannot be read.
     pub fn open(&mut self, file: &[u8]) -> Result<(), Error> {
         self.figure.open(file).map_err(thrown)

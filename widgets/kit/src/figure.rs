@@ -370,6 +370,21 @@ impl Figure {
         self.tell(|model| model.work());
     }
 
+    /// [`Model::shares`].
+    pub fn shares(&self) -> bool {
+        self.ask(|model| model.shares())
+    }
+
+    /// [`Model::part`].
+    pub fn part(&self, part: usize) -> Vec<f64> {
+        self.ask(|model| model.part(part))
+    }
+
+    /// [`Model::work_with`].
+    pub fn work_with(&mut self, parts: [&[f64]; 2]) {
+        self.tell(|model| model.work_with(parts));
+    }
+
     /// Measured data of every step so far.
     pub fn export(&self) -> Export {
         self.ask(|model| Export::new(self.tag, model))

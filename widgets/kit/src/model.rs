@@ -272,6 +272,22 @@ pub trait Model: Parameters + Tells {
     /// Does one of the pending steps.
     fn work(&mut self) {}
 
+    /// Whether the pending steps are so much work that another program is worth asking for a part of each.
+    fn shares(&self) -> bool {
+        false
+    }
+
+    /// One of the two parts of the work that the next step is made of, 0 or 1, as numbers for [`Self::work_with`]: the same in every program that
+    /// is at this step of this recipe.
+    fn part(&self, _part: usize) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Does one of the pending steps, of which these parts are known. Parts of another step are of no use, and change nothing.
+    fn work_with(&mut self, _parts: [&[f64]; 2]) {
+        self.work();
+    }
+
     /// Whether what is pending only adds to what is shown, which is of what was asked for already: a page need not hold the picture until
     /// it is done.
     fn refines(&self) -> bool {

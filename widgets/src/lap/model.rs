@@ -5,11 +5,12 @@ use crate::challenge::Challenge;
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model};
+use crate::shared;
 use crate::told::refused;
-use crate::words::lap;
+use crate::words::lap as words;
 use core::mem::replace;
-use fastslam::{genealogy::Path, geometry::Pose2, resampling::ResamplePolicy};
-use fastslam_lab::experiment::lap::{Lap, LapSetup, LapWorld, StepReport};
+use fastslam::{genealogy::Path, geometry::Pose2, proposal::Proposed, resampling::ResamplePolicy};
+use fastslam_lab::experiment::lap::{self, Lap, LapSetup, LapWorld, StepReport};
 use fastslam_lab::experiment::ring::{AFTER, deviation, died};
 use fastslam_lab::world::Edits;
 use std::sync::Arc;
@@ -240,9 +241,28 @@ impl LapModel {
     }
 }
 
+impl LapModel {
+    /// Does a pending step, by these draws if they are there.
+    fn work_by(&mut self, draws: Option<Vec<Proposed<()>>>) {
+        if self.pending() == 0 {
+            return;
+        }
+        let paths: Vec<Path> = self.shown.particles().iter().map(|particle| particle.path.clone()).collect();
+        self.shown.step_by(draws);
+        let (step, interval) = (self.step(), self.interval());
+        if self.reports.len() == step as usize {
+            self.reports.push(self.report().clone());
+            self.dead.push(self.extinct().into_iter().map(|slot| paths[slot as usize].clone()).collect());
+        }
+        if self.keyframes.last().is_none_or(|lap| lap.report().step + interval <= step) {
+            self.keyframes.push(self.shown.clone());
+        }
+    }
+}
+
 impl Declared for LapModel {
     type Recipe = Recipe;
-    const TITLE: &'static str = lap::TITLE;
+    const TITLE: &'static str = words::TITLE;
     /// The figure opened in the apartment, with one universe shown large; then on the ring, with a share of the evidence of its own and, later,
     /// a worse laser.
     const CHANGES: &'static [Change] = &[
@@ -326,7 +346,7 @@ impl Model for LapModel {
     }
 
     fn watch(&self) -> Option<(u32, &'static str)> {
-        Some((self.closing()?.saturating_sub(1), lap::watch()))
+        Some((self.closing()?.saturating_sub(1), words::watch()))
     }
 
     fn pending(&self) -> u32 {
@@ -334,19 +354,21 @@ impl Model for LapModel {
     }
 
     fn work(&mut self) {
-        if self.pending() == 0 {
-            return;
-        }
-        let paths: Vec<Path> = self.shown.particles().iter().map(|particle| particle.path.clone()).collect();
-        self.shown.step();
-        let (step, interval) = (self.step(), self.interval());
-        if self.reports.len() == step as usize {
-            self.reports.push(self.report().clone());
-            self.dead.push(self.extinct().into_iter().map(|slot| paths[slot as usize].clone()).collect());
-        }
-        if self.keyframes.last().is_none_or(|lap| lap.report().step + interval <= step) {
-            self.keyframes.push(self.shown.clone());
-        }
+        self.work_by(None);
+    }
+
+    fn shares(&self) -> bool {
+        self.step() == 0 && shared::is_worth_while(self.recipe.setup.particles, self.pending())
+    }
+
+    fn part(&self, part: usize) -> Vec<f64> {
+        let slots = lap::shared::slots(part, self.recipe.setup.particles);
+        shared::after(self.step(), lap::shared::to_numbers(&self.shown.propose(slots)))
+    }
+
+    fn work_with(&mut self, parts: [&[f64]; 2]) {
+        let draws = shared::draws(parts, self.step()).map(|draws| lap::shared::from_numbers(&draws.concat()));
+        self.work_by(draws.filter(|draws| draws.len() == self.recipe.setup.particles));
     }
 
     fn compared(&self) -> Vec<&'static str> {

@@ -6,6 +6,7 @@ use crate::ghost::{self, Curves};
 use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model};
 use crate::prediction::{Outcome, State};
+use crate::shared;
 use crate::told::{WEIGHED_ANEW, in_range, refused};
 use crate::words::resampling;
 use core::mem::replace;
@@ -179,6 +180,15 @@ impl ResamplingModel {
         self.change(|recipe| recipe.prediction.place(Some(step.round().min(last).max(1.0))));
     }
 
+    /// Keeps the newest step.
+    fn remember(&mut self) {
+        let known = self.known.get(self.moments.len());
+        self.moments.push(moments(&self.run, self.moments.last(), known));
+        if !self.run.catches_up() {
+            self.known = Arc::default();
+        }
+    }
+
     /// Steps of the simulation that are needed: to the one that is shown, or where a prediction is judged, until it can be.
     fn needed(&self) -> u32 {
         let judged = self.recipe.prediction.is_shown() && self.one_left().is_none();
@@ -279,11 +289,25 @@ impl Model for ResamplingModel {
 
     fn work(&mut self) {
         if self.pending() > 0 && self.run.advance() == Some(true) {
-            let known = self.known.get(self.moments.len());
-            self.moments.push(moments(&self.run, self.moments.last(), known));
-            if !self.run.catches_up() {
-                self.known = Arc::default();
-            }
+            self.remember();
+        }
+    }
+
+    /// Two filters draw, and later the third. Not of the landmarks, whose draws are the lesser part of a step, nor where one filter catches up with the others.
+    fn shares(&self) -> bool {
+        let lap = self.setup().course == PolicyCourse::Lap;
+        let begins = self.run.step_number() == 0 && !self.run.catches_up();
+        lap && begins && shared::is_worth_while(2 * self.setup().particles, self.pending())
+    }
+
+    fn part(&self, part: usize) -> Vec<f64> {
+        shared::after(self.run.step_number(), self.run.propose(part))
+    }
+
+    fn work_with(&mut self, parts: [&[f64]; 2]) {
+        if self.pending() > 0 {
+            self.run.step_by(shared::draws(parts, self.run.step_number()).unwrap_or_default());
+            self.remember();
         }
     }
 
