@@ -124,7 +124,7 @@ async function wasmPack(folder, args) {
 export const troubleWasm = cache('trouble', wasm)
 
 /** Built as the tests in WebAssembly are, so that both stand on the same compiled crates. */
-export const buildTrouble = () => step('A program that dies on request', () => wasmPack(dirname(troubleWasm), wasmPackArgs(dirname(troubleWasm), 'page,log,bags,trouble', 'browser')))
+export const buildTrouble = () => step('A program that dies on request', () => wasmPack(dirname(troubleWasm), wasmPackArgs(dirname(troubleWasm), 'page,log,files,trouble', 'browser')))
 
 export async function buildPages() {
   await step('Pages', async () => {

@@ -9,8 +9,8 @@ if (rows.length === 0) throw new StepError('widgets/src/registry.rs has no row t
 /** The program of each figure on a page that has many, by tag: `page`, or where it is in no other, its own. */
 export const programs = new Map(rows.map(({ name, onPage }) => [`fastslam-${name}`, onPage ? 'page' : name]))
 
-/** What the chapter loads, each a feature of the crate: the programs of its figures, and the one that reads bags and JSON lines for the figure of logs. */
-export const chapterPrograms = [...new Set(programs.values()), 'bags']
+/** What the chapter loads, each a feature of the crate: the programs of its figures, and the one that reads and writes files of other programs for the figure of logs. */
+export const chapterPrograms = [...new Set(programs.values()), 'files']
 
 /** What a page loads that has one or two figures: a program for each of those that `page` has. */
 export const singlePrograms = rows.filter(({ onPage }) => onPage).map(({ name }) => name)
@@ -18,8 +18,8 @@ export const singlePrograms = rows.filter(({ onPage }) => onPage).map(({ name })
 /** Of these, the one that stands for all in npm test: breadth makes the others. */
 export const singlesTested = ['proposal']
 
-/** Programs that a figure uses besides its own: bags and JSON lines are read for logs, and the laps behind the points of a chart are run again. @type {Record<string, string[] | undefined>} */
-export const alsoUsed = { log: ['bags'], universes: ['lap'] }
+/** Programs that a figure uses besides its own: the figure of logs reads and writes files of other programs by another one, and the laps behind the points of a chart are run again. @type {Record<string, string[] | undefined>} */
+export const alsoUsed = { log: ['files'], universes: ['lap'] }
 
 /** Where a program is. @param {string} program */
 export const programFile = program => join(root, 'widgets', 'pkg', `fastslam-${program}.wasm`)

@@ -31,13 +31,13 @@ test('bags are mapped as the CARMEN log that says the same, by a program that is
     expect(await fingerprint(log, name, file(name)), name).toBe(expected)
   }
   expect(await fingerprint(log, 'packed.mcap.gz', gzipSync(file('tf-lz4.mcap')))).toBe(expected)
-  expect(asked).toEqual([expect.stringMatching(/^GET fastslam-bags.*\.wasm$/)])
+  expect(asked).toEqual([expect.stringMatching(/^GET fastslam-files.*\.wasm$/)])
 })
 
 test('the path is saved as MCAP, byte by byte as the command saves it, by a program that is fetched then', async ({ page, complaints }) => {
   const log = await new LogFigure(page).open()
   const asked: string[] = []
-  await page.route(/fastslam-bags.*\.wasm$/, async route => {
+  await page.route(/fastslam-files.*\.wasm$/, async route => {
     asked.push(route.request().url())
     if (asked.length === 1) await route.abort()
     else await route.continue()
@@ -111,13 +111,13 @@ test('lines of JSON are read by the same program, wherever they stand and howeve
   await expect(log.sentence).toContainText('3 scans of up to 5 beams')
   await log.choose('bad.jsonl', [lines[0]!.replace('0.5', 'NaN'), ...lines].join('\n'))
   await expect(log.alert).toContainText('bad.jsonl, line 1: ')
-  expect(asked).toEqual([expect.stringMatching(/^fastslam-bags.*\.wasm$/)])
+  expect(asked).toEqual([expect.stringMatching(/^fastslam-files.*\.wasm$/)])
 })
 
 test('a log of JSON lines that is to be mapped at once is, also by a program that comes at the second try', async ({ page, complaints }) => {
   const log = await new LogFigure(page).open()
   let refused = false
-  await page.route(/fastslam-bags.*\.wasm$/, async route => {
+  await page.route(/fastslam-files.*\.wasm$/, async route => {
     if (refused) return route.continue()
     refused = true
     await route.abort()

@@ -417,7 +417,7 @@ test('what is said of a log goes when another one is chosen, also one that canno
   await expect(log.alert).not.toContainText('spoilt.clf')
 })
 
-test('on a German page, what cannot be read is told in German, by the program of logs and by that of bags', async ({ page }) => {
+test('on a German page, what cannot be read is told in German, by the program of logs and by that of files', async ({ page }) => {
   await openCourse(page, '<fastslam-log></fastslam-log>', { lang: 'de' })
   const log = new LogFigure(page)
   await expect(log.sentence).toContainText('Noch ist kein Log geöffnet.')

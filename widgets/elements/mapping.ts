@@ -379,7 +379,7 @@ async function isBag(file: Blob): Promise<boolean> {
 }
 
 /** The program that reads bags and JSON, and writes what other programs read. */
-const filesProgram = () => programNamed('bags').module()
+const filesProgram = () => programNamed('files').module()
 
 /** In words as short as the number is rough. */
 function duration(seconds: number): string {

@@ -40,7 +40,7 @@ pub struct Entry {
 
 impl Entry {
     /// The row of a figure: its title, its height and all else follow from what it is.
-    #[allow(dead_code)] // the program that reads bags has no figure
+    #[allow(dead_code)] // the program of files has no figure
     const fn of<V: View>(tag: &'static str, program: Program, count: Option<&'static Job>) -> Self {
         let height = |width| V::height(width, &Panels::default());
         let (title, panels, make) = (<V::Model as Declared>::TITLE, V::Layout::PANELS, Figure::of::<V>);

@@ -112,14 +112,14 @@ impl<const HERE: bool> Drop for Here<HERE> {
     }
 }
 
-const BAGS: bool = cfg!(feature = "bags");
+const FILES: bool = cfg!(feature = "files");
 const FIGURES: bool = !registry::FIGURES.is_empty();
 
 /// A reader of ROS bags: what it makes of one is a log that the figure of logs opens.
 #[wasm_bindgen]
 pub struct Bag {
-    _here: Here<BAGS>,
-    reader: Held<BagReader, BAGS>,
+    _here: Here<FILES>,
+    reader: Held<BagReader, FILES>,
     language: Language,
 }
 
@@ -129,7 +129,7 @@ impl Bag {
     /// what is wrong with it, as `Figure.set_words` takes it.
     #[wasm_bindgen(constructor)]
     pub fn new(scan_topic: Option<String>, odometry_topic: Option<String>, catalogue: &str) -> Bag {
-        here::<BAGS>();
+        here::<FILES>();
         let options = BagOptions { scan_topic, odometry_topic, lenient: true, ..BagOptions::default() };
         Bag { _here: Here, reader: Held(BagReader::new(options)), language: Language::learnt(catalogue) }
     }
@@ -157,7 +157,7 @@ impl Bag {
 /// `FigureError` if it cannot be read.
 #[wasm_bindgen]
 pub fn read_text(file: &[u8], catalogue: &str) -> Result<Vec<u8>, Error> {
-    here::<BAGS>();
+    here::<FILES>();
     let language = Language::learnt(catalogue);
     let _spoken = language.spoken();
     let log = unread::text(file, parse).map_err(thrown)?;
@@ -168,14 +168,14 @@ pub fn read_text(file: &[u8], catalogue: &str) -> Result<Vec<u8>, Error> {
 /// writes. Throws a `FigureError` if it cannot be written.
 #[wasm_bindgen]
 pub fn path_mcap(poses: &[f64]) -> Result<Vec<u8>, Error> {
-    here::<BAGS>();
+    here::<FILES>();
     write_path(&path(poses)).map_err(|why| thrown(unread::refused(why)))
 }
 
 /// The same poses as the benchmarks of TUM write them: what `fastslam log --trajectory` writes.
 #[wasm_bindgen]
 pub fn path_tum(poses: &[f64]) -> String {
-    here::<BAGS>();
+    here::<FILES>();
     write_tum(&path(poses))
 }
 
@@ -187,7 +187,7 @@ fn path(poses: &[f64]) -> Vec<(f64, Pose2)> {
 /// left corner is \[m\].
 #[wasm_bindgen]
 pub fn map_yaml(image: &str, cell_size: f64, x: f64, y: f64) -> String {
-    here::<BAGS>();
+    here::<FILES>();
     MapImage { width: 0, height: 0, origin: [x, y], cell_size, grey: Vec::new() }.yaml(image)
 }
 
