@@ -71,6 +71,22 @@ async function keep(path, body) {
   await rename(part, path)
 }
 
+/**
+ * A file as it is sent, made once by each server.
+ * @param {Map<string, Promise<Buffer>>} encoded @param {Buffer} raw @param {'br' | 'gzip' | undefined} encoding
+ */
+function sent(encoded, raw, encoding) {
+  const tag = createHash('sha256').update(raw).digest('base64url').slice(0, 22)
+  const etag = `"${tag}${encoding ? `-${encoding}` : ''}"`
+  const body = async () => {
+    if (!encoding) return raw
+    const promise = encoded.get(etag) ?? encode(tag, encoding, raw)
+    encoded.set(etag, promise)
+    return promise
+  }
+  return { etag, body }
+}
+
 async function forgetOld() {
   for (const file of await readdir(kept).catch(() => [])) {
     const path = join(kept, file)
@@ -81,7 +97,8 @@ async function forgetOld() {
 
 /**
  * @typedef {{ path: string, status: number, raw: number, sent: number }} Served one answer: bytes of the file, bytes sent
- * @typedef {{ url: string, close: () => Promise<void> }} Server
+ * @typedef {{ url: string, close: () => Promise<void>, prepare: (files: string[]) => Promise<void> }} Server `prepare` compresses files before
+ *   anybody asks for them, and says of what cannot be read why: of a request that fails a client learns only that the other side closed
  */
 
 /**
@@ -115,6 +132,9 @@ export async function startServer({ folder, port = 0, host = '127.0.0.1', onServ
   }
   const address = /** @type {import('node:net').AddressInfo} */ (server.address())
   return {
+    prepare: async files => {
+      await Promise.all(files.map(async file => sent(encoded, await readFile(join(base, file)), 'br').body()))
+    },
     url: `http://${host === '127.0.0.1' ? 'localhost' : host}:${address.port}/`,
     close: () =>
       new Promise(done => {
@@ -170,10 +190,9 @@ async function answer(base, encoded, request, response) {
 
   const type = types[extname(file.path)] ?? 'application/octet-stream'
   const raw = await readFile(file.path)
-  const tag = createHash('sha256').update(raw).digest('base64url').slice(0, 22)
   const accepted = String(request.headers['accept-encoding'] ?? '')
   const encoding = !compressible.test(type) ? undefined : /\bbr\b/.test(accepted) ? 'br' : /\bgzip\b/.test(accepted) ? 'gzip' : undefined
-  const etag = `"${tag}${encoding ? `-${encoding}` : ''}"`
+  const { etag, body: bodyOf } = sent(encoded, raw, encoding)
   response.setHeader('Content-Type', type)
   response.setHeader('ETag', etag)
   response.setHeader('Vary', 'Accept-Encoding')
@@ -183,14 +202,8 @@ async function answer(base, encoded, request, response) {
     response.writeHead(304).end()
     return { path, status: 304, raw: raw.length, sent: 0 }
   }
-  /** @type {Buffer} */
-  let body = raw
-  if (encoding) {
-    let promise = encoded.get(etag)
-    if (!promise) encoded.set(etag, (promise = encode(tag, encoding, raw)))
-    body = await promise
-    response.setHeader('Content-Encoding', encoding)
-  }
+  const body = await bodyOf()
+  if (encoding) response.setHeader('Content-Encoding', encoding)
   response.writeHead(200, { 'Content-Length': body.length })
   response.end(request.method === 'HEAD' ? undefined : body)
   return { path, status: 200, raw: raw.length, sent: body.length }

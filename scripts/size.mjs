@@ -64,7 +64,7 @@ async function serving(measure) {
   const take = () => answers.splice(0)
   const programs = readdirSync(dist).filter(file => file.endsWith('.wasm'))
   return withSite({ folder: dist, onServed: served => answers.push(served) }, async ({ server, browser }) => {
-    await Promise.all(programs.map(async file => (await fetch(server.url + file, { headers: { 'Accept-Encoding': 'br' } })).arrayBuffer()))
+    await server.prepare(programs)
     return await measure(async (path, ask) => {
       take()
       // Of a context of its own, whose cache is empty.

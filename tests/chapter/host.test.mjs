@@ -41,6 +41,22 @@ test('our own server sends all that other pages need, and a bare one is told wha
   }
 })
 
+test('our own server compresses files before anybody asks for them, and says which cannot be read', async () => {
+  const folder = mkdtempSync(join(tmpdir(), 'fastslam-'))
+  writeFileSync(join(folder, 'program.wasm'), 'a program '.repeat(99))
+  const server = await startServer({ folder })
+  try {
+    await server.prepare(['program.wasm'])
+    const response = await fetch(`${server.url}program.wasm`, { headers: { 'Accept-Encoding': 'br' } })
+    assert.equal(response.headers.get('Content-Encoding'), 'br')
+    assert.equal(await response.text(), 'a program '.repeat(99))
+    await assert.rejects(server.prepare(['program.wasm', 'gone.wasm']), /no such file.*gone\.wasm/)
+  } finally {
+    await server.close()
+    rmSync(folder, { recursive: true })
+  }
+})
+
 test('what comes along for hosts, and what the page on hosting shows, sends each header that the trial looks for', () => {
   const sources = { '.htaccess': readFileSync(join(root, 'www', 'public', '.htaccess'), 'utf8'), _headers: readFileSync(join(root, 'www', 'public', '_headers'), 'utf8'), 'hosting.md': readFileSync(join(root, 'www', 'hosting.md'), 'utf8') }
   for (const [name, text] of Object.entries(sources)) {
