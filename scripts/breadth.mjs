@@ -1,6 +1,8 @@
 // npm run test:all: npm test, then breadth: the units of tests/breadth.mjs, one after the other. The last line is the total of all.
 //   -- --unit NAME   that unit (may be given several times)      -- --turn K   the units of share K
 //   -- --share       the share whose turn it is, as CI does       -- --list     what there is
+//   -- --due         when the turn of each share comes
+//   -- --touched REV the units that stand on what has changed since a revision, HEAD~1 if none is named: those to run before it lands
 // Whose turn it is follows from the date of the last commit, so that the same commit always runs the same share.
 import { delimiter, join } from 'node:path'
 import { build } from './build.mjs'
@@ -8,7 +10,7 @@ import { aboutFailures, bold, cache, capture, main, readIfThere, red, root, run,
 import { singlesTested } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { add, closingLine, counted, inWords, printTable, total } from './tally.mjs'
-import { shareOf, shares, takes, units } from '../tests/breadth.mjs'
+import { shareOf, shares, takes, touched, turn, units } from '../tests/breadth.mjs'
 
 /** A share takes no longer than that, however slow the machine [s]. */
 const most = 12 * 60
@@ -75,7 +77,25 @@ function unitNamed(name) {
   return unit
 }
 
+/** What is to come: CI runs a share of each commit, so none is run in turns without one. */
+function tellDue() {
+  const now = Math.floor(Date.now() / 1000 / turn) * turn
+  for (const k of shares.keys()) console.log(`${new Date((now + k * turn) * 1000).toISOString().slice(0, 16)}Z  share ${shareOf(now + k * turn).number}: ${shareOf(now + k * turn).units.map(({ name }) => name).join(', ')}`)
+  console.log(`A commit runs the share of its own date. A unit waits ${(shares.length * turn) / 3600} h for its next turn, and longer where no commit falls into that.`)
+}
+
+/** @param {string} revision */
+function tellTouched(revision) {
+  const changed = capture('git', 'diff', '--name-only', revision)
+  if (changed === undefined) throw new StepError(`git knows no revision ${revision}.`)
+  const found = touched(changed.split('\n').filter(Boolean))
+  for (const { name, seconds } of found) console.log(`${String(seconds).padStart(4)} s  ${name}`)
+  console.log(found.length === 0 ? 'No unit stands on what has changed.' : `${(takes(found) / 60).toFixed(1)} min: npm run test:all -- ${found.map(({ name }) => `--unit ${name}`).join(' ')}`)
+}
+
 await main(async () => {
+  if (process.argv.includes('--due')) return tellDue()
+  if (process.argv.includes('--touched')) return tellTouched(given('--touched')[0] || 'HEAD~1')
   if (process.argv.includes('--list')) {
     for (const [k, share] of shares.entries()) for (const { name, seconds, command } of share) console.log(`${k}  ${String(seconds).padStart(4)} s  ${name.padEnd(28)}  ${command}`)
     console.log(`${units.length} units of ${(takes(units) / 60).toFixed(1)} min, in ${shares.length} shares`)
@@ -92,9 +112,9 @@ await main(async () => {
     await build(singlesTested)
   }
   if (share) {
-    const turn = shareOf(Number(capture('git', 'log', '-1', '--format=%ct')))
-    console.log(bold(`\nBreadth: share ${turn.number} of ${shares.length}, by the date of the last commit`))
-    await runShare(turn.units)
+    const due = shareOf(Number(capture('git', 'log', '-1', '--format=%ct')))
+    console.log(bold(`\nBreadth: share ${due.number} of ${shares.length}, by the date of the last commit`))
+    await runShare(due.units)
   } else for (const unit of all ? units : wanted) await runUnit(unit)
 
   printTable()

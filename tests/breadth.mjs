@@ -1,5 +1,6 @@
 // Breadth: what is tested besides npm test, in units of six minutes at most. All of them are `npm run test:all`; CI takes a share at a time.
 
+import { posix } from 'node:path'
 import { singlePrograms } from '../scripts/registry.mjs'
 
 /**
@@ -88,9 +89,29 @@ export const units = [
   { name: 'readme-offline', seconds: 60, command: 'npm run offline -- --singles proposal' },
   { name: 'readme-build', seconds: 80, command: 'npm run build && npm run site -- .cache/site && node --test --test-reporter=tap tests/readme/site.test.mjs && npm start -- --no-serve' },
   { name: 'readme-wasm-pack', seconds: 120, command: `${quick} wasm-pack build widgets --target web --out-dir ../.cache/wasm-pack && test -s .cache/wasm-pack/fastslam_widgets_bg.wasm` },
-  { name: 'readme-breadth', seconds: 5, command: 'npm run test:all -- --list' },
+  { name: 'readme-breadth', seconds: 5, command: 'npm run test:all -- --list && npm run test:all -- --due && npm run test:all -- --touched HEAD' },
   { name: 'readme-command-line', seconds: 60, command: 'cargo build --workspace --profile test --bin fastslam --bin fastslam-lab && node --test --test-reporter=tap tests/readme/command-line.test.mjs' },
 ]
+
+/** What units stand on, by their names: paths in the repository. @type {[units: RegExp, paths: RegExp][]} */
+export const grounds = [
+  [/^page-/, /^(widgets|www)\//],
+  [/^programs-/, /^((widgets|src|lab)\/|scripts\/(build|registry|unasked|single|offline|size))/],
+  [/^(laws|logs|wasm|faults-fi|factrs|outside|fuzz)/, /^(src|lab|tests\/(laws|outside))\//],
+  [/^faults-[efhs]/, /^(widgets|www|scripts)\//],
+  [/^(engine|clients)/, /^((widgets|www)\/|scripts\/(package|python|frames|single))/],
+  [/^reproducible/, /^(scripts\/|Cargo|package|\.cargo\/)/],
+  [/^newcomer/, /^(widgets\/(README|src\/|kit\/)|scripts\/(build|registry|elements))/],
+  [/^readme-/, /^(README\.md|scripts\/|package\.json)/],
+  [/^readme-(check|bench|threads|numbers|command)/, /^(src|lab)\//],
+]
+
+/** By a line of the above, or because its command names the file or its folder in tests/. @param {Unit} unit @param {string} file */
+const standsOn = ({ name, command }, file) =>
+  grounds.some(([names, paths]) => names.test(name) && paths.test(file)) || [/^tests\/[^/]+/.exec(file)?.[0] ?? file, `/${posix.basename(file)}`].some(path => command.includes(path))
+
+/** Units that stand on one of these files. @param {string[]} files */
+export const touched = files => units.filter(unit => files.some(file => standsOn(unit, file)))
 
 /** A share is meant to take no longer [s]. */
 const usual = 10 * 60
@@ -102,8 +123,9 @@ export const takes = some => some.reduce((sum, { seconds }) => sum + seconds, 0)
 export const shares = Array.from({ length: Math.ceil(takes(units) / usual) }, () => [])
 for (const unit of units.toSorted((a, b) => b.seconds - a.seconds)) shares.reduce((least, share) => (takes(share) < takes(least) ? share : least)).push(unit)
 
-/** Turns change every three hours. */
-const turnOf = (/** @type {number} */ time) => Math.floor(time / (3 * 3600))
+/** Turns change every three hours [s]. */
+export const turn = 3 * 3600
+const turnOf = (/** @type {number} */ time) => Math.floor(time / turn)
 
 /**
  * The share whose turn it was at a time [s since 1970]. A slow machine leaves its last units for later, so each time it begins with
@@ -111,9 +133,9 @@ const turnOf = (/** @type {number} */ time) => Math.floor(time / (3 * 3600))
  * @param {number} time
  */
 export function shareOf(time) {
-  const turn = turnOf(time)
-  const number = turn % shares.length
+  const now = turnOf(time)
+  const number = now % shares.length
   const share = shares[number] ?? []
-  const first = Math.floor(turn / shares.length) % share.length
+  const first = Math.floor(now / shares.length) % share.length
   return { number, units: [...share.slice(first), ...share.slice(0, first)] }
 }

@@ -4,7 +4,7 @@ import { readdirSync, readFileSync } from 'node:fs'
 import { join } from 'node:path'
 import { test } from 'node:test'
 import { root } from '../../scripts/lib.mjs'
-import { shareOf, shares, takes, units } from '../breadth.mjs'
+import { grounds, shareOf, shares, takes, touched, units } from '../breadth.mjs'
 
 const text = readFileSync(join(root, 'README.md'), 'utf8')
 
@@ -19,6 +19,18 @@ test('every file with tests of breadth is run by a unit', () => {
   const broad = readdirSync(specs).filter(file => file.endsWith('.spec.ts') && /\bbreadth(Of|But)?\b/.test(readFileSync(join(specs, file), 'utf8')))
   assert.ok(broad.length > 20)
   assert.deepEqual(broad.filter(file => !units.some(({ command }) => command.includes('--grep @breadth') && command.includes(`/${file}`))), [])
+})
+
+test('each unit of breadth says what it stands on, and a change finds the units to run before it lands', () => {
+  assert.deepEqual(units.filter(({ name }) => !grounds.some(([names]) => names.test(name))).map(({ name }) => name), [])
+  assert.deepEqual(grounds.filter(([names]) => !units.some(({ name }) => names.test(name))), [])
+  const named = (/** @type {string[]} */ ...files) => touched(files).map(({ name }) => name)
+  assert.deepEqual(named('tests/e2e/walk.spec.ts').filter(name => !/^page-|^programs-/.test(name)), [])
+  assert.deepEqual(named('tests/factrs/src/lib.rs'), ['factrs'])
+  assert.deepEqual(named('CHANGELOG.md'), [])
+  for (const [file, unit] of [['README.md', 'readme-command-line'], ['src/log/lib.rs', 'logs'], ['widgets/elements/mapping.ts', 'page-logs'], ['tests/readme/site.test.mjs', 'readme-build'], ['scripts/single.mjs', 'readme-offline']]) {
+    assert.ok(named(String(file)).includes(String(unit)), `${file} touches ${unit}`)
+  }
 })
 
 test('units of breadth have names of their own and take six minutes at most, and every one has its turn', () => {
