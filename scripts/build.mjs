@@ -51,8 +51,6 @@ const folderOf = program => cache('programs', program)
 /** @param {string} program */
 async function buildProgram(program) {
   await wasmPack(folderOf(program), pageArgs(program))
-  mkdirSync(dirname(programFile(program)), { recursive: true })
-  copyFileSync(join(folderOf(program), wasm), programFile(program))
   return optimise(program)
 }
 
@@ -147,10 +145,14 @@ export async function build(singles = []) {
   await buildPages()
 }
 
-/** wasm-opt takes far longer than an incremental build: what it made of the same input is kept, of each program once. @param {string} program */
+/**
+ * wasm-opt takes far longer than an incremental build: what it made of the same input is kept, of each program once. Nothing else is put where
+ * pages look for programs: a build that was broken off left an unoptimised one there, half as heavy again, which the next build shipped.
+ * @param {string} program
+ */
 async function optimise(program) {
   const file = programFile(program)
-  const input = readFileSync(file)
+  const input = readFileSync(join(folderOf(program), wasm))
   const hash = createHash('sha256')
   for (const other of [fileURLToPath(import.meta.url), join(root, 'scripts', 'unasked.mjs'), join(root, 'node_modules', 'binaryen', 'package.json')]) hash.update(readFileSync(other))
   const folder = cache('wasm-opt', basename(file))
@@ -163,6 +165,7 @@ async function optimise(program) {
     await run(npmBin('wasm-opt'), [...optimiser, part, '-o', part])
     renameSync(part, kept)
   }
+  mkdirSync(dirname(file), { recursive: true })
   copyFileSync(kept, file)
   return `${kilobytes(input.length)} → ${kilobytes(statSync(file).size)}`
 }
