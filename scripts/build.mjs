@@ -7,7 +7,7 @@ import { askForSite } from './address.mjs'
 import { tellFigures, writeNames } from './elements.mjs'
 import { writeFrames } from './frames.mjs'
 import { checkGlue, gluePaths } from './glue.mjs'
-import { chapterPrograms, programFile, singlePrograms, writeLists } from './registry.mjs'
+import { chapterPrograms, partsOf, programFile, singlePrograms, wholePrograms, writeLists } from './registry.mjs'
 import { setUp } from './setup.mjs'
 import { withoutUnasked } from './unasked.mjs'
 import { cache, capture, isMain, kilobytes, main, npmBin, readIfThere, root, run, step, StepError } from './lib.mjs'
@@ -37,11 +37,12 @@ const optimiser = [...features, '-O3', '--one-caller-inline-max-function-size=30
  * @param {string[]} singles @param {string[]} [shared] those of several figures
  */
 export async function buildPrograms(singles = [], shared = chapterPrograms) {
-  for (const program of singlePrograms) if (!isMade(program)) rmSync(programFile(program), { force: true })
+  const others = [...singlePrograms, ...wholePrograms]
+  for (const program of others) if (!isMade(program)) rmSync(programFile(program), { force: true })
   for (const program of [...shared, ...singles]) await step(basename(programFile(program)), () => buildProgram(program))
   await step('Glue of the programs', () => {
     for (const path of gluePaths) copyFileSync(join(folderOf(gluedAs), basename(path)), path)
-    for (const program of [...chapterPrograms, ...singlePrograms.filter(program => existsSync(programFile(program)))]) checkGlue(programFile(program))
+    for (const program of [...chapterPrograms, ...others.filter(program => existsSync(programFile(program)))]) checkGlue(programFile(program))
   })
 }
 
@@ -94,7 +95,7 @@ export function remapped() {
 }
 
 /** Of a program of the page's. @param {string} program */
-const pageArgs = program => wasmPackArgs(folderOf(program), program, 'page', unnamed())
+const pageArgs = program => wasmPackArgs(folderOf(program), partsOf(program).join(), 'page', unnamed())
 
 /** Of a program as these sources give it. @param {string[]} args of wasm-pack */
 const stampOf = args => `${args.join(' ')} ${madeFrom()}`
@@ -135,12 +136,18 @@ export async function buildPages() {
   await step('Frames, oEmbed and the files for other pages', writeFrames)
 }
 
-/** The site. @param {string[]} singles figures that get a program of their own, beside that of the chapter */
-export async function build(singles = []) {
+/**
+ * The site.
+ * @param {string[]} singles figures that get a program of their own, beside that of the chapter
+ * @param {{ offline?: boolean }} [made] whether files for offline use are made of it, which carry other programs where a figure uses two
+ */
+export async function build(singles = [], { offline = false } = {}) {
+  const there = [...chapterPrograms, ...singles]
+  const wholes = offline ? wholePrograms.filter(program => there.includes(partsOf(program)[0] ?? '')) : []
   await setUp()
   await step('Lists of the figures', writeLists)
   // The compiler of the one has a core to spare while the other links.
-  await Promise.all([buildPrograms(singles), step('What the figures tell of themselves', () => tellFigures())])
+  await Promise.all([buildPrograms([...singles, ...wholes]), step('What the figures tell of themselves', () => tellFigures())])
   await step('Names of the figures', writeNames)
   await buildPages()
 }

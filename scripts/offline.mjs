@@ -1,6 +1,6 @@
 // npm run offline: each figure, and the whole chapter, as one HTML file that works from a stick or an e-mail, opened by a double click;
 // and each figure as a SCORM 1.2 package for learning systems, which keeps a learner's state. All in packages/offline/. Each carries the
-// program of its figure; `-- --singles lap,em` makes them for these alone, and the others carry the chapter's.
+// program of its figure, and of what that uses besides; `-- --singles lap,em` makes them for these alone, and the others carry the chapter's.
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs'
 import { dirname, join, posix } from 'node:path'
 import { askForSite, site, wholeLinks } from './address.mjs'
@@ -8,7 +8,7 @@ import { build, dist, singlesAsked } from './build.mjs'
 import { figures } from './elements.mjs'
 import { fillFolds } from './folds.mjs'
 import { isMain, kilobytes, main, root, say, step, StepError } from './lib.mjs'
-import { alsoUsed, programFile, programs, singlePrograms } from './registry.mjs'
+import { chapterPrograms, partsOf, programFile, programs, singlePrograms, wholeOf } from './registry.mjs'
 import { singleFile } from './single.mjs'
 import { judge } from './sizes.mjs'
 
@@ -64,14 +64,23 @@ function inlined(file, script) {
   return html.replace('</body>', () => `<script type="module">\n${script.replaceAll('</script', '<\\/script')}</script>\n  </body>`)
 }
 
-/** What a figure's file carries: its own program and what that uses; where these were not made, that of the chapter. @param {import('./elements.mjs').FigureInfo} figure */
+const isMade = (/** @type {string} */ program) => existsSync(programFile(program))
+
+/** What a figure's file carries: one program with all that it uses, or these apart; where they were not made, that of the chapter. @param {import('./elements.mjs').FigureInfo} figure */
 function programsOf({ tag, name }) {
-  const own = [name, ...(alsoUsed[name] ?? [])]
-  return own.every(program => existsSync(programFile(program))) ? own : [programs.get(tag) ?? '']
+  const whole = wholeOf(name)
+  if (isMade(whole)) return [whole]
+  return partsOf(whole).every(isMade) ? partsOf(whole) : [programs.get(tag) ?? '']
+}
+
+/** What the chapter's file carries. */
+function programsOfChapter() {
+  const whole = wholeOf('log')
+  return isMade(whole) ? [...chapterPrograms.filter(program => !partsOf(whole).includes(program)), whole] : chapterPrograms
 }
 
 /** The chapter as one file, with what unfolds in it. */
-export const offlineChapter = async () => inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts')))
+export const offlineChapter = async () => inlined('index.html', await singleFile(join(root, 'www', 'src', 'main.ts'), programsOfChapter()))
 
 /** What writes the manifests of packages, which the page on embedding has as well. */
 async function manifests() {
@@ -106,7 +115,7 @@ export async function writeOffline() {
     const script = await singleFile(join(root, 'www', 'src', 'embed.ts'), carried)
     const page = inlined(`embed-${figure.name}.html`, script)
     const size = put(`${figure.tag}.html`, page)
-    if (carried.includes(figure.name)) say(`  ${await judge(`offline.${figure.name}`, size)}`)
+    if (carried[0] === wholeOf(figure.name)) say(`  ${await judge(`offline.${figure.name}`, size)}`)
     const started = page.replace('</body>', () => '<script defer src="scorm.js"></script>\n  </body>')
     // The same time in every package, so that the same figure gives the same file.
     const inside = { 'index.html': started, 'scorm.js': scorm, 'licences.txt': licences, 'sbom.cdx.json': sbom }
@@ -120,7 +129,7 @@ export async function writeOffline() {
 if (isMain(import.meta)) {
   await main(async () => {
     await askForSite()
-    await build(singlesAsked(singlePrograms))
+    await build(singlesAsked(singlePrograms), { offline: true })
     await step('Files for offline use, and SCORM packages', async () => `${(await writeOffline()).length} files in packages/offline/`)
   })
 }

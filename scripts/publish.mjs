@@ -11,7 +11,7 @@ await main(async () => {
   const named = process.argv[2]
   if (!named || named.startsWith('--')) throw new StepError('Into which folder?', 'npm run site -- FOLDER')
   await askForSite()
-  await build(singlesAsked())
+  await build(singlesAsked(), { offline: true })
   /** @type {string[]} */
   let made = []
   await step('Downloads', async () => void (made = await makeDownloads()))

@@ -21,8 +21,20 @@ export const singlesTested = ['proposal']
 /** Programs that a figure uses besides its own: the figure of logs reads and writes files of other programs by another one, and the laps behind the points of a chart are run again. @type {Record<string, string[] | undefined>} */
 export const alsoUsed = { log: ['files'], universes: ['lap'] }
 
-/** Where a program is. @param {string} program */
-export const programFile = program => join(root, 'widgets', 'pkg', `fastslam-${program}.wasm`)
+/**
+ * One program with all that a figure uses, for a file that carries it along: what its parts share, half of each, stands in it once. Its name
+ * is those of its features, joined by +. @param {string} name of the figure
+ */
+export const wholeOf = name => [name, ...(alsoUsed[name] ?? [])].join('+')
+
+/** Such programs, where they are made of several parts. */
+export const wholePrograms = Object.keys(alsoUsed).map(wholeOf)
+
+/** Names of the programs that stand in this one. @param {string} program */
+export const partsOf = program => program.split('+')
+
+/** Where a program is: those that no page loads lie apart. @param {string} program */
+export const programFile = program => join(root, 'widgets', 'pkg', program.includes('+') ? 'offline' : '', `fastslam-${program}.wasm`)
 
 /** Each list with the file it is in, what is there, and what the rows make of it. @type {[string, RegExp, () => string][]} */
 const lists = [

@@ -53,7 +53,7 @@ if (isMain(import.meta)) {
     const given = process.argv.indexOf('--tag')
     const tag = given < 0 ? undefined : (process.argv[given + 1] ?? '')
     await step('One version in all places', async () => theVersion(file => readFileSync(join(root, file), 'utf8'), tag))
-    await build(singlesAsked(singlePrograms))
+    await build(singlesAsked(singlePrograms), { offline: true })
     let [npm, wheel] = ['', '']
     await step('npm package', async () => tryNpm((npm = await packNpm())))
     await step('Python wheel', async () => tryWheel((wheel = await packWheel())))

@@ -4,7 +4,7 @@ import { dirname, join } from 'node:path'
 import { gzipSync } from 'node:zlib'
 import { catalogue, figures } from './elements.mjs'
 import { root, StepError, targets } from './lib.mjs'
-import { chapterPrograms, programFile, programs as programOf } from './registry.mjs'
+import { chapterPrograms, partsOf, programFile, programs as programOf } from './registry.mjs'
 
 const elements = join(root, 'widgets', 'elements')
 export const notebook = join(elements, 'notebook.ts')
@@ -43,12 +43,13 @@ const languages = (process.env.FASTSLAM_LANGUAGES ?? '').split(/[\s,]+/).filter(
 export async function singleFile(entry, names = chapterPrograms) {
   const packed = (/** @type {string} */ name) => gzipSync(readFileSync(programFile(name)), { level: 9 }).toString('base64')
   const programs = Object.fromEntries(names.map(name => [name, packed(name)]))
+  const carriedParts = names.flatMap(partsOf)
   // No module: pages opened from a file may not start workers that are modules.
   const worker = await bundle(join(elements, 'worker.ts'), 'iife')
-  const example = names.includes('log') ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
+  const example = carriedParts.includes('log') ? readFileSync(join(root, 'www', 'public', 'example.clf.gz')).toString('base64') : ''
   const words = Object.fromEntries(languages.map(language => [language, catalogue(language)]))
   const carried = `export const example = ${JSON.stringify(example)}; export const programs = ${JSON.stringify(programs)}; export const worker = ${JSON.stringify(worker)}; export const words = ${JSON.stringify(words)}`
-  const present = figures().filter(({ tag, name }) => names.includes(programOf.get(tag) ?? '') || names.includes(name))
+  const present = figures().filter(({ tag, name }) => carriedParts.includes(programOf.get(tag) ?? '') || carriedParts.includes(name))
   /** Code of elements that would find no program in it. */
   const without = [...programOf.keys()].filter(tag => !present.some(figure => figure.tag === tag)).map(tag => join(elements, tag))
   if (!present.some(({ counted }) => counted)) without.push(join(elements, 'count-study'))

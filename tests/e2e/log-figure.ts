@@ -22,7 +22,12 @@ export class LogFigure {
   /** Alone on a page, with a link to its settings if need be. */
   async open(link = ''): Promise<this> {
     await openAlone(this.page, 'fastslam-log', link && `#fastslam-log?${link}`)
-    if (!link) await this.stage.click() // its program comes when something is asked of it
+    return this.begin(!link)
+  }
+
+  /** On a page that is open. Its program comes when something is asked of it. */
+  async begin(asks = true): Promise<this> {
+    if (asks) await this.stage.click()
     await expect(this.element.locator('.stage.live')).toBeVisible()
     await openLab(this.element)
     return this

@@ -4,11 +4,13 @@ import { join } from 'node:path'
 import { pathToFileURL } from 'node:url'
 import type { Page } from '@playwright/test'
 import { unzipSync } from 'fflate'
+import { root } from '../../scripts/lib.mjs'
 import { offline, writeOffline } from '../../scripts/offline.mjs'
 import { expect, test } from './fixtures'
 import { Figure } from './figure'
 import { breadth, breadthOf, FIGURES, programsMade } from './host'
 import { forgiveSystem, LearningSystem } from './learning-system'
+import { LogFigure } from './log-figure'
 
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
@@ -63,6 +65,32 @@ test('the example is mapped from file:// too', async ({ page, context }) => {
   const figure = page.locator('fastslam-log')
   await figure.getByRole('button', { name: 'Map this building' }).click()
   await expect(figure.locator('[part=transport] .position')).toHaveText(/^[1-9]\d+ /)
+  expect(asked).toEqual([address])
+})
+
+test('files of other programs are read and written from file:// too', async ({ page, context }) => {
+  const path = join(offline, 'fastslam-log.html')
+  const asked: string[] = []
+  context.on('request', request => !/^(data|blob):/.test(request.url()) && asked.push(request.url()))
+  const address = pathToFileURL(path).href
+  await page.goto(address)
+  const log = await new LogFigure(page).begin()
+  await log.set('universes', '3')
+  const bags = join(root, 'tests', 'bags')
+  await log.choose('odometry-zstd.mcap', readFileSync(join(bags, 'odometry-zstd.mcap')))
+  await expect(log.sentence).toContainText('30 scans')
+  await log.button('Map this building').click()
+  await log.done()
+  await log.unfold('saves')
+  const saved = async (button: string) => {
+    const [download] = await Promise.all([page.waitForEvent('download'), log.button(button).click()])
+    return readFileSync(await download.path())
+  }
+  expect((await saved('Path for ROS 2 (MCAP)')).equals(readFileSync(join(bags, 'lap-path.mcap'))), 'as the command saves it').toBe(true)
+  expect((await saved('Path (TUM)')).toString()).toMatch(/^([\d.-]+ ){7}[\d.-]+\n/m)
+  const lines = [1, 2].map(time => JSON.stringify({ time, angle_min: -1, angle_increment: 0.5, ranges: [1, 2, null, 2, 1] }))
+  await log.choose('log.jsonl', lines.join('\n'))
+  await expect(log.sentence).toContainText('2 scans of up to 5 beams')
   expect(asked).toEqual([address])
 })
 

@@ -2,11 +2,14 @@
 import { example, programs, worker, words } from 'virtual:fastslam-files'
 import type { Catalogue } from './files'
 
-export const hasProgram = (name: string): boolean => name in programs
+/** The program of this name: where a figure uses two, both are one, with their names joined by + (scripts/registry.mjs). */
+const carried = (name: string): string | undefined => Object.entries(programs).find(([names]) => names.split('+').includes(name))?.[1]
+
+export const hasProgram = (name: string): boolean => carried(name) !== undefined
 
 /** Packed as gzip in base64: a third smaller than the program itself. */
 export async function fetchProgram(name: string): Promise<Response> {
-  const stream = new Blob([bytes(programs[name] ?? '')]).stream().pipeThrough(new DecompressionStream('gzip'))
+  const stream = new Blob([bytes(carried(name) ?? '')]).stream().pipeThrough(new DecompressionStream('gzip'))
   return new Response(stream, { headers: { 'Content-Type': 'application/wasm' } })
 }
 
