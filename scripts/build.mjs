@@ -33,12 +33,16 @@ const optimiser = [...features, '-O3', '--one-caller-inline-max-function-size=30
 
 /**
  * What pages load: the programs of the chapter, and of those of single figures the ones that are asked for. What is there of the others
- * stays where it is of these sources. One after the other, so that what they share is compiled once. All use the same glue.
+ * stays where it is of these sources; what is not, or has the name of no program, goes, as pages ship what is there. One after the other, so that
+ * what they share is compiled once. All use the same glue.
  * @param {string[]} singles @param {string[]} [shared] those of several figures
  */
 export async function buildPrograms(singles = [], shared = chapterPrograms) {
   const others = [...singlePrograms, ...wholePrograms]
-  for (const program of others) if (!isMade(program)) rmSync(programFile(program), { force: true })
+  const pkg = dirname(programFile(gluedAs))
+  const kept = [...chapterPrograms, ...others.filter(isMade)].map(programFile)
+  mkdirSync(pkg, { recursive: true })
+  for (const file of readdirSync(pkg, { recursive: true, encoding: 'utf8' })) if (file.endsWith('.wasm') && !kept.includes(join(pkg, file))) rmSync(join(pkg, file))
   for (const program of [...shared, ...singles]) await step(basename(programFile(program)), () => buildProgram(program))
   await step('Glue of the programs', () => {
     for (const path of gluePaths) copyFileSync(join(folderOf(gluedAs), basename(path)), path)
