@@ -17,7 +17,7 @@ pub fn after(step: u32, draws: Vec<f64>) -> Vec<f64> {
 }
 
 /// The draws of both parts, if they lead on from this step.
-pub fn draws<'a>(parts: [&'a [f64]; 2], step: u32) -> Option<[&'a [f64]; 2]> {
+pub fn draws(parts: [&[f64]; 2], step: u32) -> Option<[&[f64]; 2]> {
     let [(first, a), (second, b)] = [parts[0].split_first()?, parts[1].split_first()?];
     (*first == f64::from(step) && first == second).then_some([a, b])
 }
