@@ -111,7 +111,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   #hearPart(part: Float64Array): void {
     this.#ask(session => session.workWith(this.#part, part))
     this.#dirty = true
-    if (this.busy && !this.#partner!.isSlow) return this.#givePart()
+    if (this.busy) return this.#givePart()
     this.#partner!.stop()
     this.listener.wake()
   }

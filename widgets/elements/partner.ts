@@ -4,8 +4,7 @@ import type { WorkerRequest, WorkerResponse } from './host'
 import { createWorker } from './jobs'
 import type { Program } from './program'
 
-const LATE = 250 // [ms] of waiting for a part, after which the page goes on alone
-const SLOW = 50 // [ms] of waiting beyond what the page itself works: the other core has something else to do
+const PATIENCE = 100 // [ms] for which the page waits, in all of a run, beyond what it works itself: else the other core has something else to do
 const REST = 8 // runs that the page makes alone then
 
 export class Partner {
@@ -14,7 +13,7 @@ export class Partner {
   #run = 0 // what comes of an earlier one is of no use
   #since: number | undefined // [ms] when the page began to wait for a part
   #heard = 0 // [ms] when the last one came
-  #ahead = 0 // [ms] by which the page has worked longer in this run than it has waited
+  #left = 0 // [ms] of patience
   #rest = 0 // runs until it is asked again
 
   constructor(
@@ -51,7 +50,7 @@ export class Partner {
     else if (response.told === 'ready') this.#ready = true
     else if (response.told === 'part' && response.run === this.#run && this.waits) {
       this.#heard = performance.now()
-      this.#ahead -= this.#heard - this.#since!
+      this.#left -= this.#heard - this.#since!
       this.hear(response.part)
     }
   }
@@ -62,35 +61,29 @@ export class Partner {
     return this.#ready && this.#rest === 0
   }
 
-  /** Whether more is waited for it in this run than it helps. */
-  get isSlow(): boolean {
-    return this.#ahead < -SLOW
-  }
-
-  /** Whether the page waits for a part, and not too long. */
+  /** Whether the page waits for a part. */
   get waits(): boolean {
-    return this.#since !== undefined && performance.now() < this.#since + LATE
+    return this.#since !== undefined && performance.now() < this.#since + this.#left
   }
 
   /** Begins what this link says. */
   begin(query: string): void {
     this.#run += 1
     this.#heard = performance.now()
-    this.#ahead = 0
+    this.#left = PATIENCE
     this.#post({ do: 'begin-part', run: this.#run, query })
   }
 
   /** Gives the page's part of a step, and waits for the other. */
   give(part: Float64Array): void {
     this.#since = performance.now()
-    this.#ahead += this.#since - this.#heard
+    this.#left += this.#since - this.#heard
     this.#post({ do: 'part', run: this.#run, part })
   }
 
   /** Nothing more is wanted. */
   stop(): void {
-    if (this.isSlow || (this.#since !== undefined && !this.waits)) this.#rest = REST
-    this.#ahead = 0
+    if (this.#since !== undefined && !this.waits) this.#rest = REST
     this.#run += 1
     this.#since = undefined
   }
