@@ -7,6 +7,7 @@ use super::wheels::Wheels;
 use crate::geometry::{Pose2, driven};
 use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
+use crate::motion::{Displaced, Motion};
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
 use crate::sensor::Scan;
@@ -34,24 +35,8 @@ const CLIMB: HillClimbSteps = HillClimbSteps { linear: 0.16, angular: 0.08, halv
 /// What can be off of a heading besides wheels \[rad\].
 const HEADING_ERROR: f64 = 0.1;
 
-/// The poses where a robot may be that odometry has at `told`: errors of the wheels on a way \[m, rad\] lead there.
-pub(super) struct Near {
-    told: Pose2,
-    within: [f64; 2],
-}
-
-impl Near {
-    pub(super) fn new(told: &Pose2, [x, theta]: [f64; 2]) -> Self {
-        let wheels = Wheels::default().displacement(&Pose2 { x, y: 0.0, theta }).covariance;
-        let [position, heading] = [wheels.m11, wheels.m33].map(|variance| MOVING.seen_through_stds * variance.sqrt());
-        Self { told: *told, within: [position + MOVING.range_error, heading + HEADING_ERROR] }
-    }
-
-    pub(super) fn has(&self, pose: &Pose2) -> bool {
-        let off = driven(&self.told.between(pose));
-        off[0] < self.within[0] && off[1] < self.within[1]
-    }
-}
+/// Standard deviation of the turn that odometry tells from one place to the next, as long as it is in doubt \[rad\]: it says nothing.
+const TURN_ERROR: f64 = 1.0;
 
 /// See the module.
 #[derive(Clone, Debug, Default)]
@@ -64,27 +49,53 @@ pub(super) struct LastPlaces {
 }
 
 impl LastPlaces {
-    /// Where a scan fits best upon the last places of all poses that climbs reach from these starts, and that are `within`, with the score there
-    /// \[nats\]; `None` where there is nothing to match.
-    pub(super) fn matched(&mut self, starts: &[Pose2], ends: &Scan, within: Option<&Near>) -> Option<ScoredPose> {
+    /// Where a scan fits best upon the last places of all poses at which climbs from these starts end, and that `counts`, with the score there \[nats\];
+    /// `None` where there is none, or nothing to match.
+    pub(super) fn matched(
+        &mut self,
+        starts: &[Pose2],
+        ends: &Scan,
+        counts: impl Fn(&Pose2) -> bool,
+    ) -> Option<ScoredPose> {
         if self.places.is_empty() || ends.hits.is_empty() {
             return None;
         }
-        let score = score();
-        let near = score.near(self.map(), starts.first()?, ends, 1);
-        let value = |pose: &Pose2, floor| {
-            if within.is_none_or(|near| near.has(pose)) { near.log_score_above(pose, floor) } else { f64::NEG_INFINITY }
-        };
-        let climb =
-            |pose: &Pose2| hill_climb(ScoredPose { pose: *pose, value: value(pose, f64::NEG_INFINITY) }, CLIMB, value);
-        let better = |a: ScoredPose, b: ScoredPose| if b.value > a.value { b } else { a };
-        starts.iter().map(climb).reduce(better)
+        let tops = climbed(self.map(), starts, ends, |_| 0.0).into_iter();
+        tops.filter(|top| counts(&top.pose)).reduce(better)
+    }
+
+    /// Puts each place where its scan fits best upon those before, as far as odometry has it from the last; the last one stays where it is. Errors of odometry
+    /// from place to place blur what there is to match with.
+    pub(super) fn tighten(&mut self) {
+        let Some((last, _)) = self.places.back().cloned() else { return };
+        let mut map = Map::new(grid(CELL));
+        let mut before: Option<(Pose2, Pose2)> = None;
+        for (pose, ends) in &mut self.places {
+            let told = *pose;
+            if let Some((told_before, before)) = before {
+                let step = told_before.between(&told);
+                *pose = before.compose(&step);
+                let wheels = Wheels::default().displacement(&step).turned(0.0, TURN_ERROR * TURN_ERROR);
+                let wheels = Displaced.gaussian(&before, &wheels, [0.0; 3]);
+                let log_prior = |pose: &Pose2| wheels.as_ref().map_or(0.0, |wheels| wheels.log_density(pose));
+                let top = climbed(&map, &fan(*pose), ends, log_prior).into_iter().reduce(better);
+                if let Some(top) = top.filter(|top| is_home(&map, &top.pose, ends)) {
+                    *pose = top.pose;
+                }
+            }
+            map.assimilate(pose, ends, &());
+            before = Some((told, *pose));
+        }
+        let Some((_, moved)) = before else { return };
+        let back = last.compose(&moved.between(&Pose2::default()));
+        self.places.iter_mut().for_each(|(pose, _)| *pose = back.compose(pose));
+        self.map = None;
     }
 
     /// As [`Self::matched`] without odometry: where the scan is not at home near these starts, or no more than a `sure` share of its end points are on walls, it is
     /// searched for all round the last pose, from where the robot turns on the spot, or drives on along an arc as far as from the last place but one to the last.
     pub(super) fn searched(&mut self, starts: &[Pose2], last: &Pose2, ends: &Scan, sure: f64) -> Option<ScoredPose> {
-        let near = self.matched(starts, ends, None)?;
+        let near = self.matched(starts, ends, |_| true)?;
         if self.is_home(&near.pose, ends) && self.agreement(&near.pose, ends).fits > sure {
             return Some(near);
         }
@@ -96,23 +107,22 @@ impl LastPlaces {
             last.compose(&half).compose(&Pose2::new(way, 0.0, 0.0)).compose(&half)
         };
         let starts: Vec<Pose2> = turns.flat_map(|turn| [last.compose(&Pose2::new(0.0, 0.0, turn)), on(turn)]).collect();
-        self.matched(&starts, ends, None).filter(|far| far.value > near.value).or(Some(near))
+        self.matched(&starts, ends, |_| true).filter(|far| far.value > near.value).or(Some(near))
     }
 
     /// Whether a scan that was taken at this pose shows what the last places did.
     pub(super) fn is_home(&mut self, pose: &Pose2, ends: &Scan) -> bool {
-        let (agreement, [fits, disputed]) = (self.agreement(pose, ends), HOME);
-        agreement.fits > fits && agreement.disputed() < disputed
+        is_home(self.map(), pose, ends)
     }
 
     /// How well a scan that was taken at this pose agrees with the last places.
     pub(super) fn agreement(&mut self, pose: &Pose2, ends: &Scan) -> Agreement {
-        Agreement::of(&score().log_beams(self.map(), pose, ends))
+        agreement(self.map(), pose, ends)
     }
 
     /// Keeps a scan that was taken at this pose, if that is another place than the last one; tells whether it is.
     pub(super) fn take(&mut self, pose: Pose2, ends: impl FnOnce() -> Scan) -> bool {
-        if self.places.back().is_some_and(|(last, _)| is_same(last, &pose)) {
+        if self.places.back().is_some_and(|(last, _)| is_within([PLACE; 2], last, &pose)) {
             return false;
         }
         let ends = ends();
@@ -159,12 +169,48 @@ impl LastPlaces {
     }
 }
 
+/// Where climbs from these starts end, by how well a scan fits upon a map and this prior \[nats\].
+fn climbed(map: &Map, starts: &[Pose2], ends: &Scan, log_prior: impl Fn(&Pose2) -> f64) -> Vec<ScoredPose> {
+    let (score, Some(place)) = (score(), starts.first()) else { return Vec::new() };
+    let near = score.near(map, place, ends, 1);
+    let value = |pose: &Pose2, floor: f64| {
+        let log_prior = log_prior(pose);
+        log_prior + near.log_score_above(pose, floor - log_prior)
+    };
+    let climb =
+        |pose: &Pose2| hill_climb(ScoredPose { pose: *pose, value: value(pose, f64::NEG_INFINITY) }, CLIMB, value);
+    starts.iter().map(climb).collect()
+}
+
+/// The one with the higher score; of equals the first.
+fn better(a: ScoredPose, b: ScoredPose) -> ScoredPose {
+    if b.value > a.value { b } else { a }
+}
+
+/// How well a scan that was taken at this pose agrees with a map.
+fn agreement(map: &Map, pose: &Pose2, ends: &Scan) -> Agreement {
+    Agreement::of(&score().log_beams(map, pose, ends))
+}
+
+/// Whether it shows what that map does.
+fn is_home(map: &Map, pose: &Pose2, ends: &Scan) -> bool {
+    let (agreement, [fits, disputed]) = (agreement(map, pose, ends), HOME);
+    agreement.fits > fits && agreement.disputed() < disputed
+}
+
 /// Poses to climb from where the heading is uncertain: this one, and turned to either side.
 pub(super) fn fan(pose: Pose2) -> [Pose2; 5] {
     [0.0, 0.15, -0.15, 0.3, -0.3].map(|turn| Pose2::new(pose.x, pose.y, pose.theta + turn))
 }
 
-/// Whether two poses are of one place.
-fn is_same(a: &Pose2, b: &Pose2) -> bool {
-    driven(&a.between(b)).into_iter().all(|moved| moved <= PLACE)
+/// What errors of the wheels on so long a way \[m, rad\] lead to at the most.
+pub(super) fn errors_of_wheels([x, theta]: [f64; 2]) -> [f64; 2] {
+    let wheels = Wheels::default().displacement(&Pose2 { x, y: 0.0, theta }).covariance;
+    let [position, heading] = [wheels.m11, wheels.m33].map(|variance| MOVING.seen_through_stds * variance.sqrt());
+    [position + MOVING.range_error, heading + HEADING_ERROR]
+}
+
+/// Whether a robot drives by less than these limits \[m, rad\] from one pose to the other.
+pub(super) fn is_within(limits: [f64; 2], a: &Pose2, b: &Pose2) -> bool {
+    driven(&a.between(b)).into_iter().zip(limits).all(|(moved, limit)| moved < limit)
 }

@@ -5,6 +5,7 @@ mod drift;
 mod filter;
 mod fit;
 mod graphs;
+mod jumps;
 mod landmarks;
 mod localizer;
 mod log;

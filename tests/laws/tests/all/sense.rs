@@ -59,7 +59,7 @@ fn spoilt_by(log: &LaserLog, spoilt: fn(usize, &[Pose2]) -> Pose2) -> LaserLog {
     log
 }
 
-fn error(mapper: &LaserMapper, truth: &[Pose2]) -> f64 {
+pub fn error(mapper: &LaserMapper, truth: &[Pose2]) -> f64 {
     let path: Vec<Pose2> = mapper.path().into_iter().map(|(_, pose)| pose).collect();
     assert_eq!(path.len(), truth.len());
     PathError::of(&path, truth).aligned
@@ -91,7 +91,7 @@ fn odometry_that_cannot_be_true_is_not_believed_and_told() {
 }
 
 /// Jumps in one step of up to half a metre and 0.4 rad are not told from wheels that slip: the filter's scans pull the path back, to 3 cm, and to 6 cm where it
-/// jumps along a corridor. One of 1.2 rad is doubted. (One of 0.6 rad is beyond the search and below what is doubted.)
+/// jumps along a corridor. One of 1.2 rad is doubted. Larger ones: `jumps.rs`.
 #[test]
 fn small_jumps_of_odometry_are_believed_or_not_and_the_path_is_good() {
     let Example { log, truth, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, SCANS);
