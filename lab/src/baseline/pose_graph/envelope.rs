@@ -5,6 +5,9 @@
 
 use core::ops::Range;
 
+/// Rows that are factored side by side: those of a pose.
+const ROWS: usize = 3;
+
 /// The lower half of a symmetric matrix, and then its factor, row by row.
 #[derive(Clone, Debug)]
 pub(super) struct Envelope {
@@ -48,37 +51,68 @@ impl Envelope {
     }
 
     /// Becomes the factor L of L Lᵀ; `None` where it is not positive definite.
+    ///
+    /// The rows of a pose begin at the same column, and none of them needs another one before their own columns: up to there they go side by
+    /// side, so that none waits for the sums and divisions of the others.
     pub fn factor(mut self) -> Option<Factor> {
-        for row in 0..self.size() {
-            for column in self.first[row]..=row {
-                let from = self.first[row].max(self.first[column]);
-                let sum = dot(self.row(row, from..column), self.row(column, from..column));
-                let at = self.start[row] + column - self.first[row];
-                let left = self.values[at] - sum;
-                self.values[at] = if column < row {
-                    left / self.values[self.start[column + 1] - 1]
-                } else if left > 0.0 && left.is_finite() {
-                    left.sqrt()
-                } else {
+        let mut done = 0;
+        while done < self.size() {
+            let first = self.first[done];
+            let alike = self.first[done..].iter().take(ROWS).take_while(|other| **other == first).count();
+            let (rows, from) = if alike == ROWS { (ROWS, done) } else { (1, first) };
+            (first..from).for_each(|column| self.eliminate::<ROWS>(done, column));
+            for row in done..done + rows {
+                (from..row).for_each(|column| self.eliminate::<1>(row, column));
+                let [left] = self.left(row, row);
+                if !(left > 0.0 && left.is_finite()) {
                     return None;
-                };
+                }
+                *self.diagonal(row) = left.sqrt();
             }
+            done += rows;
         }
         Some(Factor(self))
     }
-}
 
-/// In a fixed order on every platform, in four sums so that a compiler may do them at once.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    let (fours, rest) = (a.chunks_exact(4).zip(b.chunks_exact(4)), a.len() / 4 * 4);
-    for (a, b) in fours {
-        for k in 0..4 {
-            sums[k] += a[k] * b[k];
+    /// The entries of a column in so many rows from this one on, which begin alike.
+    fn eliminate<const N: usize>(&mut self, row: usize, column: usize) {
+        let (left, pivot) = (self.left::<N>(row, column), *self.diagonal(column));
+        for (k, left) in left.into_iter().enumerate() {
+            let at = self.start[row + k] + column - self.first[row];
+            self.values[at] = left / pivot;
         }
     }
-    let tail: f64 = a[rest..].iter().zip(&b[rest..]).map(|(a, b)| a * b).sum();
-    (sums[0] + sums[1]) + (sums[2] + sums[3]) + tail
+
+    /// What is left of them when the columns before it are taken off.
+    fn left<const N: usize>(&self, row: usize, column: usize) -> [f64; N] {
+        let from = self.first[row].max(self.first[column]);
+        let rows: [&[f64]; N] = core::array::from_fn(|k| self.row(row + k, from..column + 1));
+        let sums = dots(rows, self.row(column, from..column));
+        core::array::from_fn(|k| rows[k][column - from] - sums[k])
+    }
+}
+
+/// Of each of the first with the last, in a fixed order on every platform, in four sums so that a compiler may do them at once.
+fn dots<const N: usize>(a: [&[f64]; N], b: &[f64]) -> [f64; N] {
+    let mut sums = [[0.0; 4]; N];
+    let (fours, rest) = b.as_chunks::<4>();
+    let a = a.map(|a| a[..b.len()].as_chunks::<4>());
+    for (at, b) in fours.iter().enumerate() {
+        for (sums, (a, _)) in sums.iter_mut().zip(&a) {
+            for k in 0..4 {
+                sums[k] += a[at][k] * b[k];
+            }
+        }
+    }
+    core::array::from_fn(|n| {
+        let tail: f64 = a[n].1.iter().zip(rest).map(|(a, b)| a * b).sum();
+        (sums[n][0] + sums[n][1]) + (sums[n][2] + sums[n][3]) + tail
+    })
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let [sum] = dots([a], b);
+    sum
 }
 
 /// L of L Lᵀ.
