@@ -263,8 +263,8 @@ export class Figure implements Listener {
   }
 
   /**
-   * Works also between frames, where that is on the page, and shows what was asked for as soon as it is there: until then there is nothing to
-   * paint, and the reader waits.
+   * Works also between frames, where that is on the page, and shows what was asked for, or a first answer to it, as soon as it is there: until
+   * then there is nothing to paint, and the reader waits.
    */
   async #catchUp(): Promise<void> {
     if (this.#catchingUp) return
@@ -273,7 +273,7 @@ export class Figure implements Listener {
       await yieldToMain()
       if (!this.host || this.host.remote || !this.frames.waiting) break
       this.host.work(WORK_SLICE, true)
-      if (this.#pictured && !this.host.busy) this.#paint(performance.now())
+      if (this.#pictured && this.host.answers) this.#paint(performance.now())
     } while (this.host?.busy && !this.host.waits)
     this.#catchingUp = false
   }

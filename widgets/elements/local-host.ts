@@ -17,6 +17,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   #dirty = true
   #paintedAt = -Infinity // [ms]
   #asked = true // something, since then
+  #answer = 0 // to what was asked last that was painted
   readonly #memory = new HostMemory()
   #trapped = false // it was this figure that killed the instance
   #partner: Partner | undefined // once there was enough to do for two
@@ -50,6 +51,10 @@ export class LocalHost implements FigureHost, InstanceUser {
     return this.#ask(session => session.pending) ?? true // between two instances it is on its way back
   }
 
+  get answers(): boolean {
+    return !this.busy || (this.#ask(session => session.state.answer > this.#answer) ?? false)
+  }
+
   get done(): number {
     return this.sent - this.#queue.length
   }
@@ -79,9 +84,12 @@ export class LocalHost implements FigureHost, InstanceUser {
 
   frame(now?: number): Frame | undefined {
     return this.#ask(session => {
-      const hurry = session.pending && now !== undefined && now < this.#paintedAt + (this.#asked ? CATCH_UP_PAINT : REFINE_PAINT)
-      if (now !== undefined && (!this.#dirty || hurry || session.state.holds)) return undefined
+      const { answer } = session.state
+      const soon = this.#paintedAt + (this.#asked ? CATCH_UP_PAINT : REFINE_PAINT)
+      const hurry = session.pending && now !== undefined && now < soon && answer <= this.#answer
+      if (now !== undefined && (!this.#dirty || hurry || !answer)) return undefined
       const frame = session.frame(now === undefined)
+      this.#answer = answer
       this.#dirty = this.#asked = now === undefined
       this.#paintedAt = performance.now()
       this.#memory.saw(frame)
@@ -142,6 +150,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   #carryOut(command: Command): void {
     this.#partner?.stop()
     this.#dirty = this.#asked = true
+    this.#answer = 0
     this.#ask(session => {
       void session.do(command)
       // A state that is asked for is remembered, in case that another figure kills the instance before it is shown.

@@ -192,7 +192,7 @@ export class Mapping implements Extra, Transport {
     if (this.#view.controls) return
     const { params: specs, readouts, describe: sentence } = AT_REST
     const values = Object.fromEntries(specs.map(spec => [spec.name, spec.default]))
-    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, holds: false, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, told: sentence, difference: '', instead: {}, main: '', changed: false }
+    const rest = { done: 0, language: 'en', specs, values, query: '', step: 0, target: 0, last: 0, answer: 1, pace: 1, busy: false, readouts, handles: [], rooms: [], sentence, told: sentence, difference: '', instead: {}, main: '', changed: false }
     const frame: Frame = { ...rest, chips: AT_REST.chips, prediction: null, gist: { x: 0, y: 0, w: 0, h: 0 }, picture: undefined, run: { phase: 'empty', log: '', reading: false, left: NaN, unfit: undefined } }
     this.figure.present(frame)
     if (this.figure.wanted || this.#log) return // where more is on its way, that will be told

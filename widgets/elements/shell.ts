@@ -105,8 +105,8 @@ export interface ProgramState {
   step: number
   target: number
   last: number
-  /** Whether to leave shown what is: on the way to what was asked for is another moment than that. */
-  holds: boolean
+  /** 0 where what is shown is to be left so: on the way to what was asked for is another moment than that. Else which answer there is to it. */
+  answer: number
   /** What keeps a file from being mapped. */
   unfit?: Refusal
 }

@@ -101,7 +101,7 @@ function show(): Promise<void> {
   return (willShow ??= yieldToMain().then(() => {
     willShow = undefined
     return attempt(() => {
-      if (session!.state.holds) return
+      if (!session!.state.answer) return
       const { picture, ...frame } = session!.frame()
       // A copy: the memory is the program's, and the next call may move it.
       const pixels = picture?.pixels().slice()

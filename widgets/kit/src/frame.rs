@@ -23,9 +23,9 @@ pub struct State {
     pub target: u32,
     /// The last step there is.
     pub last: u32,
-    /// Whether to leave shown what is: on the way to what was asked for is another moment than that. The first picture is watched as it
-    /// comes, and so is what is mapped of a file.
-    pub holds: bool,
+    /// 0 where what is shown is to be left so: on the way to what was asked for is another moment than that. Else which answer there is to
+    /// it ([`crate::model::Model::answer`]). The first picture is watched as it comes, and so is what is mapped of a file.
+    pub answer: u32,
     /// What keeps a file from being mapped.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unfit: Option<FigureError>,

@@ -288,10 +288,10 @@ pub trait Model: Parameters + Tells {
         self.work();
     }
 
-    /// Whether what is pending only adds to what is shown, which is of what was asked for already: a page need not hold the picture until
-    /// it is done.
-    fn refines(&self) -> bool {
-        false
+    /// What is shown while something is pending. 0: what was asked for before, so that a page holds its picture until all is done. Any other
+    /// number: an answer to what was asked for, to which only something is added; a greater one is worth a picture as soon as it is there.
+    fn answer(&self) -> u32 {
+        0
     }
 
     /// What comes of the reader's prediction, if one is asked for.

@@ -330,8 +330,8 @@ impl Model for EmModel {
     }
 
     /// EM mapping is done at once; particles and other guesses come after it.
-    fn refines(&self) -> bool {
-        self.pending() > 0
+    fn answer(&self) -> u32 {
+        1
     }
 
     /// After the first iterations little is to be seen of how the passes fill.

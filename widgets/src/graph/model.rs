@@ -227,8 +227,8 @@ impl Model for GraphModel {
     }
 
     /// From the solved graph on: what comes then is the particle filter beside it.
-    fn refines(&self) -> bool {
-        self.runs.refines()
+    fn answer(&self) -> u32 {
+        self.runs.refines().into()
     }
 
     fn pace(&self) -> f64 {

@@ -160,8 +160,8 @@ impl Model for JointModel {
     }
 
     /// From the first run on: what comes then are more repeats.
-    fn refines(&self) -> bool {
-        self.runs.refines()
+    fn answer(&self) -> u32 {
+        self.runs.refines().into()
     }
 
     fn compared(&self) -> Vec<&'static str> {

@@ -198,8 +198,8 @@ impl Model for SmoothingModel {
     }
 
     /// From the first sweep on: what comes then are more of them.
-    fn refines(&self) -> bool {
-        self.runs.refines()
+    fn answer(&self) -> u32 {
+        self.runs.refines().into()
     }
 
     fn prediction(&self) -> Option<Outcome> {

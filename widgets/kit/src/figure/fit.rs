@@ -18,11 +18,11 @@ impl Figure {
     pub fn state(&self) -> State {
         let (query, values, target) = (self.query(), self.values(), self.target());
         let arrived = self.asked.arrived;
-        let (step, last, holds) = self.ask(|model| {
-            let waits = model.pending() > 0 && model.files().is_none() && !model.refines();
-            (model.step(), model.step_count(), arrived && waits)
+        let (step, last, answer) = self.ask(|model| {
+            let waits = arrived && model.pending() > 0 && model.files().is_none();
+            (model.step(), model.step_count(), if waits { model.answer() } else { 1 })
         });
-        State { values, query, step, target, last, holds, unfit: self.ready().err() }
+        State { values, query, step, target, last, answer, unfit: self.ready().err() }
     }
 
     /// Paints what there is to see, and tells what there is to know. That something has changed, and a trace, are told in one frame only,
