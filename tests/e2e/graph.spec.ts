@@ -63,6 +63,37 @@ test('it opens before the first iteration with a ring that does not close; by it
   }
 })
 
+/** Sets the noise of the wheels, and returns what is told on the way and at which iteration of how many, picture by picture. */
+const wheels = (figure: Figure, noise: string): Promise<[told: string, position: string][]> =>
+  figure.element.evaluate(async (element, noise) => {
+    const [described, position] = ['.described', '.timeline .position'].map(part => element.shadowRoot!.querySelector(part)!) as [Element, Element]
+    const told: [string, string][] = []
+    const observer = new MutationObserver(() => told.push([described.textContent!, position.textContent!]))
+    observer.observe(described, { childList: true, characterData: true, subtree: true })
+    element.setAttribute('odometry', noise)
+    await (element as HTMLElement & { settled(): Promise<void> }).settled()
+    observer.disconnect()
+    return told
+  }, noise)
+
+test('of other wheels the graph is shown when the first loops are found, at its last iteration, and then as a new figure shows it', async ({ page, context }) => {
+  const figure = await open(page, 'step=60')
+  const pictures = [await figure.picture()]
+  const told = await wheels(figure, '0.6')
+  pictures.push(await figure.picture())
+  const [first, last] = [told[0]!, told.at(-1)!]
+  expect(first[0]).toMatch(/^3 loops found so far\. The path is off by 0\.\d\d m\.$/)
+  expect(last[0]).toMatch(/^Iteration .* with 23 loop edges\. The best of 16 universes/)
+  for (const [, position] of told) {
+    const [step, of] = position.split('/').map(Number)
+    expect(step, position).toBe(of)
+    expect(step, position).toBeGreaterThan(0)
+  }
+  const other = await open(await context.newPage(), 'step=60&odometry=0.6')
+  expect([await other.readouts(), await other.picture()]).toEqual([await figure.readouts(), pictures[1]])
+  expect(pictures[0]).not.toBe(pictures[1])
+})
+
 test('a link reopens the same numbers', breadth, async ({ page }) => {
   const query = 'repair=switchable&wrong=on&odometry=1&seed=3&start=matches&step=60'
   const before = await (await open(page, query)).readouts()

@@ -6,16 +6,17 @@
 //! ([`Fit`](fastslam::proposal::Fit)), as in the filter's proposal.
 
 mod build;
+mod lap;
 
 pub use build::{APART, DRAWN, GraphBuild, RECENT, VISIT};
+pub use lap::{FIRST_LOOPS, Frame, GraphLap, Solved};
 
-use super::lap::{Lap, LapSetup, LapWorld};
-use crate::baseline::pose_graph::{Edge, EdgeKind, GraphError, Iteration, Optimizer, PoseGraph, Repair};
+use super::lap::LapSetup;
+use crate::baseline::pose_graph::{Edge, EdgeKind, GraphError, Optimizer, Repair};
 use crate::digest::Digest;
 use fastslam::error::{Range, SettingError};
 use fastslam::geometry::{Pose2, align, rms};
 use fastslam::nalgebra::{Matrix3, Vector3};
-use std::sync::Arc;
 
 /// What a path is off by, and what of it is left after the best rigid motion \[m\].
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -185,153 +186,6 @@ pub const FALSE_EDGE: [usize; 2] = [14, 52];
 
 /// Standard deviations of a false edge \[m, m, rad\]: as sure of itself as a match is.
 pub const WRONG_STDS: [f64; 3] = [0.05, 0.05, 0.02];
-
-/// The graph at one iteration.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Frame {
-    /// Every pose.
-    pub poses: Vec<Pose2>,
-    /// F \[nats\].
-    pub cost: f64,
-    /// Against the truth.
-    pub error: PathError,
-    /// The share of the false edge's information that pulls, where there is one.
-    pub wrong_weight: Option<f64>,
-}
-
-/// What a figure shows of a lap as a graph: the log tied together step by step, every iteration of its optimisation, and beside it the
-/// particle filter on the same log.
-#[derive(Clone, Debug)]
-pub struct GraphLap {
-    setup: GraphSetup,
-    build: GraphBuild,
-    optimizer: Option<Optimizer>,
-    /// From the start of the optimisation to its end, or as far as it is.
-    frames: Vec<Frame>,
-    solved: bool,
-    universes: Lap,
-}
-
-impl GraphLap {
-    /// At the start of the log.
-    ///
-    /// # Errors
-    /// Where a setting is out of its range, or a false edge leads nowhere.
-    pub fn new(setup: &GraphSetup) -> Result<Self, SettingError> {
-        setup.validate()?;
-        Self::in_world(setup, Arc::new(setup.lap.world()))
-    }
-
-    fn in_world(setup: &GraphSetup, world: Arc<LapWorld>) -> Result<Self, SettingError> {
-        let build = GraphBuild::in_world(&setup.lap, Arc::clone(&world));
-        Self::of(setup, build, Lap::in_world(&setup.lap, world)?)
-    }
-
-    /// Another question about the same log: nothing but the optimisation begins anew.
-    ///
-    /// # Errors
-    /// Where a setting is out of its range, or a false edge leads nowhere.
-    pub fn asked(&self, setup: &GraphSetup) -> Result<Self, SettingError> {
-        setup.validate()?;
-        if setup.lap != self.setup.lap {
-            return Self::in_world(setup, setup.lap.world_like(&self.setup.lap, self.build.world()));
-        }
-        Self::of(setup, self.build.clone(), self.universes.clone())
-    }
-
-    fn of(setup: &GraphSetup, build: GraphBuild, universes: Lap) -> Result<Self, SettingError> {
-        let poses = build.world().odometry.clone();
-        let error = PathError::of(&poses, &build.world().truth);
-        let frames = vec![Frame { poses, cost: f64::NAN, error, wrong_weight: None }];
-        Ok(Self { setup: setup.clone(), build, optimizer: None, frames, solved: false, universes })
-    }
-
-    /// What was asked.
-    pub fn setup(&self) -> &GraphSetup {
-        &self.setup
-    }
-
-    /// The truth and the log.
-    pub fn world(&self) -> &LapWorld {
-        self.build.world()
-    }
-
-    /// How the graph came about.
-    pub fn build(&self) -> &GraphBuild {
-        &self.build
-    }
-
-    /// The particle filter on the same log, as far as it is.
-    pub fn universes(&self) -> &Lap {
-        &self.universes
-    }
-
-    /// Every iteration so far, the start first. Until the log is tied together, the wheels' path alone, of no cost yet (not a number).
-    pub fn frames(&self) -> &[Frame] {
-        &self.frames
-    }
-
-    /// Whether the optimisation has come to its end.
-    pub fn is_solved(&self) -> bool {
-        self.solved
-    }
-
-    /// Calls of [`Self::advance`] that are left, or about so many.
-    pub fn pending(&self) -> u32 {
-        let left = self.world().controls.len() - self.build.step_now();
-        let solving = if self.solved { 0 } else { 1 + ITERATIONS.saturating_sub(self.frames.len() as u32) };
-        left as u32 + solving + self.universes.step_count() - self.universes.step_now()
-    }
-
-    /// A step of the log, then an iteration, then a step of the particle filter.
-    ///
-    /// # Errors
-    /// [`GraphError`] where the graph cannot be solved.
-    pub fn advance(&mut self) -> Result<(), GraphError> {
-        if self.build.step_now() < self.world().controls.len() {
-            return self.build.step().map(drop);
-        }
-        if self.solved {
-            self.universes.follow();
-            return Ok(());
-        }
-        match &mut self.optimizer {
-            None => {
-                self.frames.clear();
-                self.optimizer = Some(Optimizer::new(self.graph()?, self.setup.repair));
-            }
-            Some(optimizer) => {
-                let Iteration { cost_before, cost_after, converged, .. } = optimizer.step()?;
-                // The last one, which gains nothing to speak of, is none to look at.
-                self.solved = converged || self.frames.len() as u32 >= ITERATIONS;
-                if converged && cost_before - cost_after <= 0.0 {
-                    return Ok(());
-                }
-            }
-        }
-        if let Some(optimizer) = &self.optimizer {
-            let error = PathError::of(optimizer.poses(), &self.world().truth);
-            let wrong_weight = self.setup.wrong.and_then(|_| optimizer.weights().last().copied());
-            self.frames.push(Frame { poses: optimizer.poses().to_vec(), cost: optimizer.cost(), error, wrong_weight });
-        }
-        Ok(())
-    }
-
-    /// The graph as it is asked for: the log's edges, of which those of loops may be left out, and last the false one.
-    ///
-    /// # Errors
-    /// Those of [`PoseGraph::new`].
-    pub fn graph(&self) -> Result<PoseGraph, GraphError> {
-        let keeps = |edge: &&Edge| self.setup.loops || edge.kind != EdgeKind::Loop;
-        let mut edges: Vec<Edge> = self.build.edges().iter().filter(keeps).copied().collect();
-        edges.extend(self.setup.wrong.map(wrong_edge));
-        let poses = match self.setup.start {
-            Start::Wheels => self.world().odometry[..self.build.chain().len()].to_vec(),
-            Start::Matches => self.build.chain().to_vec(),
-        };
-        PoseGraph::new(poses, edges)
-    }
-}
 
 impl GraphSetup {
     /// # Errors

@@ -43,6 +43,11 @@ pub trait Computes {
     /// Whether there is anything to be seen of it.
     fn is_begun(run: &Self::Run) -> bool;
 
+    /// Whether so much of it is there that who goes back to it is glad to have it at once.
+    fn is_worth_keeping(run: &Self::Run) -> bool {
+        Self::is_begun(run)
+    }
+
     /// Forgets what only a run that goes on needs.
     fn put_aside(_run: &mut Self::Run) {}
 }
@@ -114,7 +119,7 @@ impl<F: Computes> Runs<F> {
 
     fn show(&mut self, run: F::Run) {
         let mut before = core::mem::replace(&mut self.shown, run);
-        if F::is_begun(&before) {
+        if F::is_worth_keeping(&before) {
             F::put_aside(&mut before);
             self.kept.put(before);
         }

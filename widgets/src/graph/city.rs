@@ -10,7 +10,7 @@ use crate::{
     },
     words::{common, graph as words},
 };
-use fastslam_lab::baseline::pose_graph::EdgeKind;
+use fastslam_lab::{baseline::pose_graph::EdgeKind, experiment::graph::Solved};
 
 /// Around the building, for a path that has left it \[m\].
 const MARGIN: f64 = 1.7;
@@ -71,10 +71,12 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
 fn header(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let (step, last) = (&model.step(), &model.step_count());
     let rms = &told::metres(model.frame().error.rms);
-    let strong = match model.graph().is_solved() {
-        true if model.hides() => words::before_first().into(),
-        true => words::Iteration { step, last }.say(),
-        false => words::tying_short().into(),
+    let loops = &model.edges(EdgeKind::Loop).count();
+    let strong = match model.graph().solved() {
+        Solved::Not => words::tying_short().into(),
+        Solved::InPart => words::ClosingShort { loops }.say(),
+        Solved::Whole if model.hides() => words::before_first().into(),
+        Solved::Whole => words::Iteration { step, last }.say(),
     };
     let cost = told::cost(model.frame().cost);
     let rest = match (model.graph().is_solved(), layout.wide) {

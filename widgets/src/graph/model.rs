@@ -17,7 +17,7 @@ use fastslam::{geometry::Pose2, map::grid::Grid};
 use fastslam_lab::{
     baseline::pose_graph::{Edge, EdgeKind},
     experiment::{
-        graph::{Frame, GraphLap, GraphSetup},
+        graph::{Frame, GraphLap, GraphSetup, Solved},
         lap::{LapWorld, StepReport},
     },
 };
@@ -57,6 +57,10 @@ impl Computes for GraphModel {
     }
 
     fn is_begun(run: &GraphLap) -> bool {
+        run.solved() > Solved::Not
+    }
+
+    fn is_worth_keeping(run: &GraphLap) -> bool {
         run.is_solved()
     }
 }
@@ -219,16 +223,16 @@ impl Model for GraphModel {
         if self.pending() == 0 {
             return;
         }
-        let solved = self.runs.shown().is_solved();
+        let solved = self.runs.shown().solved();
         advance(self.runs.asked_mut());
-        if self.runs.show_if(GraphLap::is_solved) || !solved && self.runs.shown().is_solved() {
+        if self.runs.show_if(Self::is_begun) || self.runs.shown().solved() != solved {
             self.place(true);
         }
     }
 
-    /// From the solved graph on: what comes then is the particle filter beside it.
+    /// First the graph with some of its loops closed, then with all of them, and beside it the particle filter.
     fn answer(&self) -> u32 {
-        self.runs.refines().into()
+        if self.runs.refines() { self.graph().solved() as u32 } else { 0 }
     }
 
     fn pace(&self) -> f64 {
@@ -239,8 +243,9 @@ impl Model for GraphModel {
         self.recipe.prediction.outcome("rms_end", self.end())
     }
 
+    /// Of the whole graph only: what it comes to by some of its loops is no difference between two settings.
     fn compared(&self) -> Vec<&'static str> {
-        vec!["rms", "cost", "wrong_weight"]
+        if self.graph().is_solved() { vec!["rms", "cost", "wrong_weight"] } else { Vec::new() }
     }
 
     fn curves(&self) -> Curves {

@@ -8,7 +8,7 @@ use crate::{
     words::graph as words,
 };
 use fastslam_lab::baseline::pose_graph::{EdgeKind, Repair};
-use fastslam_lab::experiment::graph::PathError;
+use fastslam_lab::experiment::graph::{PathError, Solved};
 
 /// A length \[m\], with two decimals.
 pub fn metres(length: f64) -> String {
@@ -104,8 +104,8 @@ impl Tells for GraphModel {
 
     fn describe(&self) -> String {
         let frame = self.frame();
-        if !self.graph().is_solved() {
-            return words::tying().into();
+        if let Some(unsolved) = unsolved(self) {
+            return unsolved;
         }
         let (step, last) = (&self.step(), &self.step_count());
         let (rms, cost) = (&metres(frame.error.rms), &cost(frame.cost));
@@ -131,8 +131,8 @@ impl Tells for GraphModel {
 
     fn narrate(&self) -> String {
         let frame = self.frame();
-        if !self.graph().is_solved() {
-            return words::tying().into();
+        if let Some(unsolved) = unsolved(self) {
+            return unsolved;
         }
         if let Some(judged) = judged(self) {
             return judged;
@@ -143,6 +143,18 @@ impl Tells for GraphModel {
             (_, Some([i, j]), Some(weight)) => words::NWrong { i: &i, j: &j, weight: &percent(weight), rms }.say(),
             (step, ..) => words::NTold { step: &step, rms, start: &metres(self.frames()[0].error.rms) }.say(),
         }
+    }
+}
+
+/// What is said of a graph that is not solved as a whole.
+fn unsolved(model: &GraphModel) -> Option<String> {
+    match model.graph().solved() {
+        Solved::Not => Some(words::tying().into()),
+        Solved::InPart => {
+            let (loops, rms) = (&model.edges(EdgeKind::Loop).count(), &metres(model.frame().error.rms));
+            Some(words::Closing { loops, rms }.say())
+        }
+        Solved::Whole => None,
     }
 }
 

@@ -50,7 +50,8 @@ const MODEL: GridModel = GridModel { distance_reach: 2, lag: 0, ..GRID };
 /// Floor of the odometry's standard deviations \[m, m, rad\].
 const FLOOR: [f64; 3] = FROM_SCAN.motion_floor;
 
-/// The log of a lap on its way to a graph: a call of [`Self::step`] for each of its steps.
+/// The log of a lap on its way to a graph: a call of [`Self::step`] for each of its steps. Loops can also be closed later than steps are
+/// tied in, as no step depends on them: what comes of it is the same.
 #[derive(Clone, Debug)]
 pub struct GraphBuild {
     world: Arc<LapWorld>,
@@ -60,6 +61,7 @@ pub struct GraphBuild {
     chain: Vec<Pose2>,
     /// The same with every loop closed that was found so far: where the next one is looked for.
     bent: Vec<Pose2>,
+    /// By the pose that is measured.
     edges: Vec<Edge>,
 }
 
@@ -93,26 +95,55 @@ impl GraphBuild {
         self.chain.len() - 1
     }
 
-    /// The next step of the log; false after the last.
+    /// Steps at which a loop was looked for.
+    pub fn searched(&self) -> usize {
+        self.bent.len() - 1
+    }
+
+    /// The next step of the log, and its loop; false after the last.
     ///
     /// # Errors
     /// [`GraphError::Singular`] where a closed loop cannot be solved.
     pub fn step(&mut self) -> Result<bool, GraphError> {
+        let tied = self.tie()?;
+        Ok(self.close()? || tied)
+    }
+
+    /// Ties the next step of the log to the one before it; false after the last.
+    ///
+    /// # Errors
+    /// [`GraphError::NotPositiveDefinite`] where the noise of the wheels leaves nothing that could be measured.
+    pub fn tie(&mut self) -> Result<bool, GraphError> {
         let k = self.step_now();
         let (Some(control), Some(scan)) = (self.world.controls.get(k).copied(), self.world.scans.get(k).cloned())
         else {
             return Ok(false);
         };
-        self.tie(k, &control)?;
+        self.roll(k, &control)?;
         self.follow(k, &control, &scan)?;
-        if self.close(k + 1, &scan)? {
-            self.bend()?;
+        Ok(true)
+    }
+
+    /// Looks for a loop at the next of the steps that are tied in, and closes it; false after the last of them.
+    ///
+    /// # Errors
+    /// [`GraphError::Singular`] where a closed loop cannot be solved.
+    pub fn close(&mut self) -> Result<bool, GraphError> {
+        let k = self.searched();
+        let [Some(here), Some(next)] = [k, k + 1].map(|pose| self.chain.get(pose)) else { return Ok(false) };
+        // A loop that was closed bends what came before it, not the step to come.
+        let next = self.bent[k].compose(&here.between(next));
+        self.bent.push(next);
+        if let Some(edge) = self.find(k + 1)? {
+            let so_far = self.edges.partition_point(|other| other.j <= edge.j);
+            self.edges.insert(so_far, edge);
+            self.bend(so_far + 1)?;
         }
         Ok(true)
     }
 
     /// Pose k + 1 as the wheels see it from pose k.
-    fn tie(&mut self, k: usize, control: &Odometry) -> Result<(), GraphError> {
+    fn roll(&mut self, k: usize, control: &Odometry) -> Result<(), GraphError> {
         let origin = Pose2::default();
         let covariance = self.motion.covariance(&origin, control) + floor(FLOOR);
         let i_from_j = control.apply(&origin);
@@ -133,40 +164,33 @@ impl GraphBuild {
         if let Some(found) = found {
             self.edges.push(found.edge([k, k + 1], &here, EdgeKind::Match, self.edges.len())?);
         }
-        // A loop that was closed bends what came before it, not the step to come.
-        let step = here.between(&pose);
-        let bent = self.bent[k].compose(&step);
         self.chain.push(pose);
-        self.bent.push(bent);
         Ok(())
     }
 
-    /// Holds the scan of pose j against those of the nearest pose of long ago. Whether they fit.
-    fn close(&mut self, j: usize, scan: &Scan) -> Result<bool, GraphError> {
-        let here = self.bent[j];
+    /// Holds the scan of pose j against those of the nearest pose of long ago: the edge between the two, where they fit.
+    fn find(&self, j: usize) -> Result<Option<Edge>, GraphError> {
+        let (here, scan) = (self.bent[j], &self.world.scans[j - 1]);
         let before = 0..(j + 1).saturating_sub(APART);
         let distance = |i: &usize| self.bent[*i].distance(&here);
-        let Some(i) = before.min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return Ok(false) };
+        let Some(i) = before.min_by(|a, b| distance(a).total_cmp(&distance(b))) else { return Ok(None) };
         if distance(&i) > NEAR || scan.hits.len() < LEAST_HITS {
-            return Ok(false);
+            return Ok(None);
         }
         let map = self.map(i.saturating_sub(VISIT)..i + VISIT + 1, &self.bent);
         let [linear, angular] = DRIFT.map(|std| std * std);
         let prior = Gaussian3::new(here, Matrix3::from_diagonal(&Vector3::new(linear, linear, angular)));
         let climb = HillClimbSteps { linear: 0.1, angular: 0.04, halvings: 3 };
         let found = prior.and_then(|prior| self.fit(&map, &prior, scan, &SEARCH, climb));
-        let Some(found) = found else { return Ok(false) };
-        if self.score.log_score(&map, &found.pose, scan) < LEAST_SCORE * scan.hits.len() as f64 {
-            return Ok(false);
-        }
-        self.edges.push(found.edge([i, j], &self.bent[i], EdgeKind::Loop, self.edges.len())?);
-        Ok(true)
+        let least = LEAST_SCORE * scan.hits.len() as f64;
+        let found = found.filter(|found| self.score.log_score(&map, &found.pose, scan) >= least);
+        found.map(|found| found.edge([i, j], &self.bent[i], EdgeKind::Loop, self.edges.len())).transpose()
     }
 
-    /// Bends the path so far by all loops found so far.
-    fn bend(&mut self) -> Result<(), GraphError> {
-        let mut optimizer =
-            Optimizer::new(PoseGraph::new(self.bent.clone(), self.edges.clone())?, Repair::LeastSquares);
+    /// Bends the path so far by the first so many edges.
+    fn bend(&mut self, edges: usize) -> Result<(), GraphError> {
+        let graph = PoseGraph::new(self.bent.clone(), self.edges[..edges].to_vec())?;
+        let mut optimizer = Optimizer::new(graph, Repair::LeastSquares);
         optimizer.run(4)?;
         self.bent = optimizer.poses().to_vec();
         Ok(())
@@ -177,7 +201,7 @@ impl GraphBuild {
     /// # Panics
     /// Where there are more poses than steps.
     pub fn drawn(&self, poses: &[Pose2]) -> Grid {
-        self.map_in(GridModel { cell_size: DRAWN, ..MODEL }, 0..poses.len(), poses)
+        self.map_in(GridModel { cell_size: DRAWN, distance_reach: 0, ..MODEL }, 0..poses.len(), poses)
     }
 
     /// A map of the scans of these steps at these poses; the start's own scans among them.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::experiment::lap::Course;
+use crate::experiment::lap::{Course, Lap};
 use crate::experiment::ring::median;
 
 fn solved(setup: &GraphSetup) -> GraphLap {
@@ -123,5 +123,55 @@ fn settings_out_of_range_are_refused() {
     for scale in [0.0, 3.0] {
         let lap = LapSetup { odometry_scale: scale, range_std: 0.0, course: Course::Ring, ..LapSetup::default() };
         assert!(solved(&GraphSetup { lap, ..GraphSetup::default() }).is_solved());
+    }
+}
+
+/// Seen red where a loop is bent by edges of steps after it.
+#[test]
+fn loops_that_are_looked_for_when_all_steps_are_tied_are_the_same() {
+    for course in [Course::Ring, Course::Apartment] {
+        let setup = LapSetup { course, ..LapSetup::default() };
+        let [mut by_steps, mut later] = [(); 2].map(|()| GraphBuild::new(&setup).unwrap());
+        while by_steps.step().unwrap() {}
+        while later.tie().unwrap() {}
+        assert!(later.edges().iter().all(|edge| edge.kind != EdgeKind::Loop));
+        while later.close().unwrap() {}
+        assert_eq!(later.edges(), by_steps.edges(), "{course}");
+        assert_eq!((later.step_now(), later.searched()), (by_steps.step_now(), by_steps.searched()));
+    }
+}
+
+/// What is seen first stays where it is, but for some pixels, when all loops are closed.
+#[test]
+fn a_first_look_has_the_first_loops_and_a_path_near_that_of_all_of_them() {
+    let mut far = Vec::new();
+    for seed in 1..=12 {
+        let mut lap = GraphLap::new(&ring(seed)).unwrap();
+        while lap.solved() == Solved::Not {
+            lap.advance().unwrap();
+        }
+        let first = lap.frames().last().unwrap().clone();
+        assert_eq!(lap.build().edges().iter().filter(|edge| edge.kind == EdgeKind::Loop).count(), FIRST_LOOPS);
+        assert_eq!(lap.solved(), Solved::InPart, "seed {seed}");
+        while !lap.is_solved() {
+            assert_eq!(lap.frames().last(), Some(&first), "nothing is shown of iterations on their way");
+            lap.advance().unwrap();
+        }
+        let last = lap.frames().last().unwrap();
+        far.push(first.poses.iter().zip(&last.poses).map(|(a, b)| a.distance(b)).fold(0.0, f64::max));
+    }
+    // Of the pose that is moved furthest: in the median less than a cell of the map that is drawn.
+    assert!(far.iter().all(|far| *far < 2.0 * DRAWN) && median(far.clone()) < DRAWN, "{far:?}");
+}
+
+#[test]
+fn there_is_no_first_look_at_a_false_edge_or_at_a_graph_without_loops() {
+    for setup in [GraphSetup { wrong: Some([14, 52]), ..ring(3) }, GraphSetup { loops: false, ..ring(3) }] {
+        let mut lap = GraphLap::new(&setup).unwrap();
+        while lap.solved() == Solved::Not {
+            lap.advance().unwrap();
+        }
+        assert_eq!(lap.solved(), Solved::Whole);
+        assert_eq!(lap.build().searched() > 0, setup.loops, "loops that are left out are not looked for");
     }
 }
