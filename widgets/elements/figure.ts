@@ -252,12 +252,12 @@ export class Figure implements Listener {
     const plays = this.life.playback.playing && this.frames.inView
     if (plays && !this.host.busy) this.#advance(now)
     this.host?.work(WORK_SLICE, true)
+    this.life.tellSize()
     this.#paint(now)
     if (plays || this.host?.busy) this.wake()
   }
 
   #paint(now: number): void {
-    this.life.tellSize()
     this.#show(this.host?.frame(now))
     this.view.showBusy(this.host?.busy ?? false)
   }
@@ -273,7 +273,7 @@ export class Figure implements Listener {
       await yieldToMain()
       if (!this.host || this.host.remote || !this.frames.waiting) break
       this.host.work(WORK_SLICE, true)
-      if (this.#pictured && this.host.answers) this.#paint(performance.now())
+      if (this.#pictured) this.#paint(performance.now())
     } while (this.host?.busy && !this.host.waits)
     this.#catchingUp = false
   }

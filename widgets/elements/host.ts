@@ -153,8 +153,6 @@ export interface FigureHost {
   /** What is set, and how far it is, as known here; undefined before anything is. */
   readonly state: ProgramState | undefined
   readonly busy: boolean
-  /** Whether there is an answer to what was asked last, or a better one, that is not shown yet. */
-  readonly answers: boolean
   /** Commands that have been sent, and that have been carried out. */
   readonly sent: number
   readonly done: number

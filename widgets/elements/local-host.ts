@@ -51,10 +51,6 @@ export class LocalHost implements FigureHost, InstanceUser {
     return this.#ask(session => session.pending) ?? true // between two instances it is on its way back
   }
 
-  get answers(): boolean {
-    return !this.busy || (this.#ask(session => session.state.answer > this.#answer) ?? false)
-  }
-
   get done(): number {
     return this.sent - this.#queue.length
   }
@@ -85,8 +81,7 @@ export class LocalHost implements FigureHost, InstanceUser {
   frame(now?: number): Frame | undefined {
     return this.#ask(session => {
       const { answer } = session.state
-      const soon = this.#paintedAt + (this.#asked ? CATCH_UP_PAINT : REFINE_PAINT)
-      const hurry = session.pending && now !== undefined && now < soon && answer <= this.#answer
+      const hurry = session.pending && answer <= this.#answer && now! < this.#paintedAt + (this.#asked ? CATCH_UP_PAINT : REFINE_PAINT)
       if (now !== undefined && (!this.#dirty || hurry || !answer)) return undefined
       const frame = session.frame(now === undefined)
       this.#answer = answer

@@ -36,10 +36,6 @@ export class WorkerHost implements FigureHost {
     return this.done < this.sent || (this.#shown?.busy ?? true)
   }
 
-  get answers(): boolean {
-    return this.#new // it paints by itself
-  }
-
   get done(): number {
     return this.#before + (this.#shown?.done ?? 0)
   }

@@ -288,12 +288,6 @@ pub trait Model: Parameters + Tells {
         self.work();
     }
 
-    /// What is shown while something is pending. 0: what was asked for before, so that a page holds its picture until all is done. Any other
-    /// number: an answer to what was asked for, to which only something is added; a greater one is worth a picture as soon as it is there.
-    fn answer(&self) -> u32 {
-        0
-    }
-
     /// What comes of the reader's prediction, if one is asked for.
     fn prediction(&self) -> Option<Outcome> {
         None
@@ -330,6 +324,12 @@ pub trait Model: Parameters + Tells {
     /// The same, to be given one.
     fn files_mut(&mut self) -> Option<&mut dyn Files> {
         None
+    }
+
+    /// What is shown while something is pending. 0: what was asked for before, so that a page holds its picture until all is done. Any other
+    /// number: an answer to what was asked for, to which only something is added; a greater one is worth a picture as soon as it is there.
+    fn answer(&self) -> u32 {
+        0
     }
 
     /// Does all pending work.

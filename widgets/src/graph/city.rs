@@ -74,7 +74,7 @@ fn header(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let loops = &model.edges(EdgeKind::Loop).count();
     let strong = match model.graph().solved() {
         Solved::Not => words::tying_short().into(),
-        Solved::InPart => words::ClosingShort { loops }.say(),
+        Solved::InPart(_) => words::ClosingShort { loops }.say(),
         Solved::Whole if model.hides() => words::before_first().into(),
         Solved::Whole => words::Iteration { step, last }.say(),
     };

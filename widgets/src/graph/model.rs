@@ -129,10 +129,14 @@ impl GraphModel {
         &self.map.1
     }
 
-    /// The edges of the log, of the kind.
+    /// The edges of the log, of the kind, that are in what is solved.
     pub fn edges(&self, kind: EdgeKind) -> impl Iterator<Item = &Edge> {
-        let there = kind != EdgeKind::Loop || self.setup().loops;
-        self.runs.shown().build().edges().iter().filter(move |edge| there && edge.kind == kind)
+        let most = match (kind, self.graph().solved()) {
+            (EdgeKind::Loop, _) if !self.setup().loops => 0,
+            (EdgeKind::Loop, Solved::InPart(loops)) => loops,
+            _ => usize::MAX,
+        };
+        self.graph().build().edges().iter().filter(move |edge| edge.kind == kind).take(most)
     }
 
     /// The particle filter at the end of the log; `None` while it is under way.
@@ -232,7 +236,11 @@ impl Model for GraphModel {
 
     /// First the graph with some of its loops closed, then with all of them, and beside it the particle filter.
     fn answer(&self) -> u32 {
-        if self.runs.refines() { self.graph().solved() as u32 } else { 0 }
+        match self.graph().solved() {
+            Solved::InPart(_) if self.runs.refines() => 1,
+            Solved::Whole if self.runs.refines() => 2,
+            _ => 0,
+        }
     }
 
     fn pace(&self) -> f64 {

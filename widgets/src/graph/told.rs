@@ -150,7 +150,7 @@ impl Tells for GraphModel {
 fn unsolved(model: &GraphModel) -> Option<String> {
     match model.graph().solved() {
         Solved::Not => Some(words::tying().into()),
-        Solved::InPart => {
+        Solved::InPart(_) => {
             let (loops, rms) = (&model.edges(EdgeKind::Loop).count(), &metres(model.frame().error.rms));
             Some(words::Closing { loops, rms }.say())
         }

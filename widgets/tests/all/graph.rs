@@ -140,8 +140,11 @@ fn the_first_answer_is_of_what_was_asked_for_and_says_how_many_loops_it_has() {
         wrong.retain(|wrong| *wrong != "\"The filter is driving …\" was shortened"); // it is what is said
         assert_eq!(wrong, [""; 0], "{width}");
     }
-    // What takes the most time is still to be done.
+    // Loops that are found meanwhile come when the path has them, all at once.
     let first = shown.model().pending();
+    (0..10).for_each(|_| shown.work());
+    assert_eq!((shown.state().answer, loops(&shown)), (1, 3));
+    // What takes the most time is still to be done.
     while shown.state().answer == 1 {
         shown.work();
     }

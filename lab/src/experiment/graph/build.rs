@@ -6,11 +6,11 @@ use fastslam::error::SettingError;
 use fastslam::geometry::{Gaussian3, Pose2};
 use fastslam::map::ConditionalMap;
 use fastslam::map::grid::{Grid, GridModel};
-use fastslam::matching::{HillClimbSteps, ScanModel, Score as _, ScoreNear as _, hill_climb};
+use fastslam::matching::{HillClimbSteps, ScanModel, Score as _, ScoreNear, hill_climb};
 use fastslam::motion::{Motion as _, Odometry, OdometryModel};
 use fastslam::nalgebra::{Matrix3, Vector3};
 use fastslam::ops;
-use fastslam::proposal::{CorrelativeSearch, Fit, FitLimits, Search, Target};
+use fastslam::proposal::{CorrelativeSearch, Fit, FitLimits, Search, Starts, Target};
 use fastslam::sensor::Scan;
 use std::sync::Arc;
 
@@ -235,17 +235,7 @@ impl GraphBuild {
     ) -> Option<Found> {
         let near = self.score.near(map, prior.mean(), scan, FROM_SCAN.climb_stride);
         let target = Target::new(prior, near, FROM_SCAN.minimum_improvement);
-        let starts = search.starts(&target);
-        let tops =
-            starts.poses.into_iter().map(|start| hill_climb(start, climb, |pose, bar| target.log_posterior(pose, bar)));
-        let top = tops.reduce(|best, end| if end.value > best.value { end } else { best })?;
-        if top.value - prior.log_density(&top.pose) - starts.log_mean < FROM_SCAN.minimum_improvement {
-            return None;
-        }
-        // The pose by scan and motion, its covariance by the scan alone: what the wheels say has an edge of its own.
-        let pose = *Fit::around(&top.pose, &FROM_SCAN.limits, |pose| target.log_value(pose))?.gaussian.mean();
-        let hill = Fit::around(&pose, &LIMITS, |pose| target.score().log_score(pose))?;
-        Some(Found { pose, covariance: hill.gaussian.covariance() })
+        Found::from(search.starts(&target), climb, prior, &target)
     }
 
     /// The graph of the steps so far, at the poses that no loop has bent.
@@ -287,6 +277,26 @@ struct Found {
 }
 
 impl Found {
+    /// Where the climbs from these starts lead.
+    #[inline(never)] // a program has it once, however it searches
+    fn from(
+        starts: Starts,
+        climb: HillClimbSteps,
+        prior: &Gaussian3,
+        target: &Target<'_, impl ScoreNear>,
+    ) -> Option<Self> {
+        let tops =
+            starts.poses.into_iter().map(|start| hill_climb(start, climb, |pose, bar| target.log_posterior(pose, bar)));
+        let top = tops.reduce(|best, end| if end.value > best.value { end } else { best })?;
+        if top.value - prior.log_density(&top.pose) - starts.log_mean < FROM_SCAN.minimum_improvement {
+            return None;
+        }
+        // The pose by scan and motion, its covariance by the scan alone: what the wheels say has an edge of its own.
+        let pose = *Fit::around(&top.pose, &FROM_SCAN.limits, |pose| target.log_value(pose))?.gaussian.mean();
+        let hill = Fit::around(&pose, &LIMITS, |pose| target.score().log_score(pose))?;
+        Some(Self { pose, covariance: hill.gaussian.covariance() })
+    }
+
     fn edge(&self, [i, j]: [usize; 2], world_from_i: &Pose2, kind: EdgeKind, index: usize) -> Result<Edge, GraphError> {
         let information = information_of(&turned(&self.covariance, -self.pose.theta), index)?;
         Ok(Edge { i, j, i_from_j: world_from_i.between(&self.pose), information, kind })

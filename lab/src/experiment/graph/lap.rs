@@ -28,8 +28,8 @@ pub struct Frame {
 pub enum Solved {
     /// Nothing.
     Not,
-    /// What ties neighbours, and the first of its loops.
-    InPart,
+    /// What ties neighbours, and so many of its loops.
+    InPart(usize),
     /// All of it.
     Whole,
 }
@@ -158,7 +158,12 @@ impl GraphLap {
     /// with few of them it folds the path into another shape.
     fn is_worth_a_look(&self) -> bool {
         let first = self.solved == Solved::Not && self.setup.wrong.is_none() && self.left()[1] > 0;
-        first && self.build.edges().iter().filter(|edge| edge.kind == EdgeKind::Loop).count() >= FIRST_LOOPS
+        first && self.loops() >= FIRST_LOOPS
+    }
+
+    /// Loops that are closed.
+    fn loops(&self) -> usize {
+        self.build.edges().iter().filter(|edge| edge.kind == EdgeKind::Loop).count()
     }
 
     /// An iteration of the optimisation that is under way; after its last, all of them are there to be seen.
@@ -172,7 +177,7 @@ impl GraphLap {
         }
         if ends {
             self.frames = core::mem::take(&mut self.coming);
-            self.solved = if self.left()[1] == 0 { Solved::Whole } else { Solved::InPart };
+            self.solved = if self.left()[1] == 0 { Solved::Whole } else { Solved::InPart(self.loops()) };
         } else {
             self.optimizer = Some(optimizer);
         }
