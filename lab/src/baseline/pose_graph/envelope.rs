@@ -60,10 +60,10 @@ impl Envelope {
             let first = self.first[done];
             let alike = self.first[done..].iter().take(ROWS).take_while(|other| **other == first).count();
             let (rows, from) = if alike == ROWS { (ROWS, done) } else { (1, first) };
-            (first..from).for_each(|column| self.eliminate(done..done + rows, column));
+            (first..from).for_each(|column| self.eliminate::<ROWS>(done, column));
             for row in done..done + rows {
-                (from..row).for_each(|column| self.eliminate(row..row + 1, column));
-                let [left, ..] = self.left(row..row + 1, row);
+                (from..row).for_each(|column| self.eliminate::<1>(row, column));
+                let [left] = self.left(row, row);
                 if !(left > 0.0 && left.is_finite()) {
                     return None;
                 }
@@ -74,29 +74,27 @@ impl Envelope {
         Some(Factor(self))
     }
 
-    /// The entries of a column in rows that begin alike.
-    fn eliminate(&mut self, rows: Range<usize>, column: usize) {
-        let (left, pivot) = (self.left(rows.clone(), column), *self.diagonal(column));
-        for (row, left) in rows.zip(left) {
-            let at = self.start[row] + column - self.first[row];
+    /// The entries of a column in so many rows from this one on, which begin alike.
+    fn eliminate<const N: usize>(&mut self, row: usize, column: usize) {
+        let (left, pivot) = (self.left::<N>(row, column), *self.diagonal(column));
+        for (k, left) in left.into_iter().enumerate() {
+            let at = self.start[row + k] + column - self.first[row];
             self.values[at] = left / pivot;
         }
     }
 
-    /// What is left of them when the columns before it are taken off; of fewer rows than there can be, of the first one again.
-    fn left(&self, rows: Range<usize>, column: usize) -> [f64; ROWS] {
-        let from = self.first[rows.start].max(self.first[column]);
-        let row = |k: usize| if k < rows.len() { rows.start + k } else { rows.start };
-        let rows: [&[f64]; ROWS] = core::array::from_fn(|k| self.row(row(k), from..column + 1));
+    /// What is left of them when the columns before it are taken off.
+    fn left<const N: usize>(&self, row: usize, column: usize) -> [f64; N] {
+        let from = self.first[row].max(self.first[column]);
+        let rows: [&[f64]; N] = core::array::from_fn(|k| self.row(row + k, from..column + 1));
         let sums = dots(rows, self.row(column, from..column));
         core::array::from_fn(|k| rows[k][column - from] - sums[k])
     }
 }
 
 /// Of each of the first with the last, in a fixed order on every platform, in four sums so that a compiler may do them at once.
-#[inline(never)] // a program has it once
-fn dots(a: [&[f64]; ROWS], b: &[f64]) -> [f64; ROWS] {
-    let mut sums = [[0.0; 4]; ROWS];
+fn dots<const N: usize>(a: [&[f64]; N], b: &[f64]) -> [f64; N] {
+    let mut sums = [[0.0; 4]; N];
     let (fours, rest) = b.as_chunks::<4>();
     let a = a.map(|a| a[..b.len()].as_chunks::<4>());
     for (at, b) in fours.iter().enumerate() {
@@ -113,7 +111,7 @@ fn dots(a: [&[f64]; ROWS], b: &[f64]) -> [f64; ROWS] {
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let [sum, ..] = dots([a; ROWS], b);
+    let [sum] = dots([a], b);
     sum
 }
 
