@@ -1,4 +1,4 @@
-//! A lap as a pose graph: the log of [`LapWorld`], the same scans and the same matcher as the particle filter's, and one path.
+//! A lap as a pose graph: the log of [`LapWorld`](super::lap::LapWorld), the same scans and the same matcher as the particle filter's, and one path.
 //!
 //! On the way each step is tied to the one before twice: by its wheels, and by its scan, held against a map of the last scans. Where the
 //! path comes near a place of long ago, the same search holds the scan against a map of the scans of then: what it finds closes a

@@ -189,6 +189,7 @@ impl GraphLap {
         let wrong_weight = self.setup.wrong.and_then(|_| optimizer.weights().last().copied());
         Frame { poses: optimizer.poses().to_vec(), cost: optimizer.cost(), error, wrong_weight }
     }
+
     /// The graph as it is asked for: the log's edges, of which those of loops may be left out, and last the false one.
     ///
     /// # Errors
