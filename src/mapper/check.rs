@@ -250,7 +250,7 @@ impl Found {
         for (k, scan) in scans.iter().enumerate() {
             let ends = scan.end_points(longest, MAX_RANGE);
             let told = if k > 0 { scans[k - 1].odometry.between(&scan.odometry) } else { Pose2::default() };
-            let there = places.matched(&[last.compose(&told)], &ends, |_| true);
+            let there = places.matched(&[last.compose(&told)], &ends, &|_| true);
             let ahead = places.searched(&fan(last.compose(&motion)), &last, &ends, 0.0);
             let pose = match (there, ahead) {
                 (Some(there), Some(ahead)) => {

@@ -4,7 +4,7 @@ use super::agreement::Agreement;
 use super::models::{CELL, Map, grid, score};
 use super::moving::MOVING;
 use super::wheels::Wheels;
-use crate::geometry::{Pose2, driven};
+use crate::geometry::{Gaussian3, Pose2, driven};
 use crate::map::ConditionalMap;
 use crate::matching::{HillClimbSteps, Score, ScoreNear, ScoredPose, hill_climb};
 use crate::motion::{Displaced, Motion};
@@ -55,12 +55,12 @@ impl LastPlaces {
         &mut self,
         starts: &[Pose2],
         ends: &Scan,
-        counts: impl Fn(&Pose2) -> bool,
+        counts: &dyn Fn(&Pose2) -> bool,
     ) -> Option<ScoredPose> {
         if self.places.is_empty() || ends.hits.is_empty() {
             return None;
         }
-        let tops = climbed(self.map(), starts, ends, |_| 0.0).into_iter();
+        let tops = climbed(self.map(), starts, ends, None).into_iter();
         tops.filter(|top| counts(&top.pose)).reduce(better)
     }
 
@@ -77,8 +77,7 @@ impl LastPlaces {
                 *pose = before.compose(&step);
                 let wheels = Wheels::default().displacement(&step).turned(0.0, TURN_ERROR * TURN_ERROR);
                 let wheels = Displaced.gaussian(&before, &wheels, [0.0; 3]);
-                let log_prior = |pose: &Pose2| wheels.as_ref().map_or(0.0, |wheels| wheels.log_density(pose));
-                let top = climbed(&map, &fan(*pose), ends, log_prior).into_iter().reduce(better);
+                let top = climbed(&map, &fan(*pose), ends, wheels.as_ref()).into_iter().reduce(better);
                 if let Some(top) = top.filter(|top| is_home(&map, &top.pose, ends)) {
                     *pose = top.pose;
                 }
@@ -95,7 +94,7 @@ impl LastPlaces {
     /// As [`Self::matched`] without odometry: where the scan is not at home near these starts, or no more than a `sure` share of its end points are on walls, it is
     /// searched for all round the last pose, from where the robot turns on the spot, or drives on along an arc as far as from the last place but one to the last.
     pub(super) fn searched(&mut self, starts: &[Pose2], last: &Pose2, ends: &Scan, sure: f64) -> Option<ScoredPose> {
-        let near = self.matched(starts, ends, |_| true)?;
+        let near = self.matched(starts, ends, &|_| true)?;
         if self.is_home(&near.pose, ends) && self.agreement(&near.pose, ends).fits > sure {
             return Some(near);
         }
@@ -107,7 +106,7 @@ impl LastPlaces {
             last.compose(&half).compose(&Pose2::new(way, 0.0, 0.0)).compose(&half)
         };
         let starts: Vec<Pose2> = turns.flat_map(|turn| [last.compose(&Pose2::new(0.0, 0.0, turn)), on(turn)]).collect();
-        self.matched(&starts, ends, |_| true).filter(|far| far.value > near.value).or(Some(near))
+        self.matched(&starts, ends, &|_| true).filter(|far| far.value > near.value).or(Some(near))
     }
 
     /// Whether a scan that was taken at this pose shows what the last places did.
@@ -170,11 +169,11 @@ impl LastPlaces {
 }
 
 /// Where climbs from these starts end, by how well a scan fits upon a map and this prior \[nats\].
-fn climbed(map: &Map, starts: &[Pose2], ends: &Scan, log_prior: impl Fn(&Pose2) -> f64) -> Vec<ScoredPose> {
+fn climbed(map: &Map, starts: &[Pose2], ends: &Scan, prior: Option<&Gaussian3>) -> Vec<ScoredPose> {
     let (score, Some(place)) = (score(), starts.first()) else { return Vec::new() };
     let near = score.near(map, place, ends, 1);
     let value = |pose: &Pose2, floor: f64| {
-        let log_prior = log_prior(pose);
+        let log_prior = prior.map_or(0.0, |prior| prior.log_density(pose));
         log_prior + near.log_score_above(pose, floor - log_prior)
     };
     let climb =

@@ -238,7 +238,7 @@ impl Odometer {
             return None;
         }
         if doubt == Doubt::Differs
-            && let Some(there) = self.places.matched(&[*told], &ends, |pose| is_within(REPAIRED, told, pose))
+            && let Some(there) = self.places.matched(&[*told], &ends, &|pose| is_within(REPAIRED, told, pose))
         {
             let (there, [disputed, fits]) = (self.places.agreement(&there.pose, &ends), AT_HOME);
             if there.disputed() < disputed && there.fits > fits {
@@ -265,7 +265,7 @@ impl Odometer {
         if is_explained(&best.pose) {
             return None;
         }
-        let there = self.places.matched(&fan(*told), &ends, is_explained);
+        let there = self.places.matched(&fan(*told), &ends, &is_explained);
         let found = self.places.agreement(&best.pose, &ends);
         let gain = there.map_or(f64::INFINITY, |there| (best.value - there.value) / ends.hits.len() as f64);
         let is_proved = CLEAR.is_given(gain, &found) || less.is_some_and(|less| less.is_given(gain, &found));
