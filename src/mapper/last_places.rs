@@ -35,7 +35,7 @@ const CLIMB: HillClimbSteps = HillClimbSteps { linear: 0.16, angular: 0.08, halv
 /// What can be off of a heading besides wheels \[rad\].
 const HEADING_ERROR: f64 = 0.1;
 
-/// Standard deviation of the turn that odometry tells from one place to the next, as long as it is in doubt \[rad\]: it says nothing.
+/// Standard deviation of a turn between two places, as odometry reports it while it is in doubt \[rad\]: wide enough to say nothing.
 const TURN_ERROR: f64 = 1.0;
 
 /// See the module.
@@ -49,8 +49,8 @@ pub(super) struct LastPlaces {
 }
 
 impl LastPlaces {
-    /// Where a scan fits best upon the last places of all poses at which climbs from these starts end, and that `counts`, with the score there \[nats\];
-    /// `None` where there is none, or nothing to match.
+    /// Best mode of a scan's score upon the last places, with that score \[nats\], among those that hill climbs from these starts reach and that `counts`
+    /// accepts; `None` where there is none, or nothing to match.
     pub(super) fn matched(
         &mut self,
         starts: &[Pose2],
@@ -64,10 +64,9 @@ impl LastPlaces {
         tops.filter(|top| counts(&top.pose)).reduce(better)
     }
 
-    /// Puts each place where its scan fits best upon those before, as far as odometry has it from the last; the last one stays where it is. Errors of odometry
-    /// from place to place blur what there is to match with.
+    /// Realigns the places: each moves to where its scan fits best upon the earlier ones, with the distance that odometry reports as a prior. The newest
+    /// place keeps its pose. Without this, odometry errors between places blur the map that the next scan is matched with.
     pub(super) fn tighten(&mut self) {
-        let Some((last, _)) = self.places.back().cloned() else { return };
         let mut map = Map::new(grid(CELL));
         let mut before: Option<(Pose2, Pose2)> = None;
         for (pose, ends) in &mut self.places {
@@ -85,8 +84,8 @@ impl LastPlaces {
             map.assimilate(pose, ends, &());
             before = Some((told, *pose));
         }
-        let Some((_, moved)) = before else { return };
-        let back = last.compose(&moved.between(&Pose2::default()));
+        let Some((told, moved)) = before else { return };
+        let back = told.compose(&moved.between(&Pose2::default()));
         self.places.iter_mut().for_each(|(pose, _)| *pose = back.compose(pose));
         self.map = None;
     }
@@ -168,7 +167,7 @@ impl LastPlaces {
     }
 }
 
-/// Where climbs from these starts end, by how well a scan fits upon a map and this prior \[nats\].
+/// Modes that hill climbs from these starts reach: of a scan's score upon a map plus the logarithm of the prior \[nats\].
 fn climbed(map: &Map, starts: &[Pose2], ends: &Scan, prior: Option<&Gaussian3>) -> Vec<ScoredPose> {
     let (score, Some(place)) = (score(), starts.first()) else { return Vec::new() };
     let near = score.near(map, place, ends, 1);
@@ -202,14 +201,14 @@ pub(super) fn fan(pose: Pose2) -> [Pose2; 5] {
     [0.0, 0.15, -0.15, 0.3, -0.3].map(|turn| Pose2::new(pose.x, pose.y, pose.theta + turn))
 }
 
-/// What errors of the wheels on so long a way \[m, rad\] lead to at the most.
+/// Bound on the odometry error \[m, rad\] after driving and turning this far \[m, rad\].
 pub(super) fn errors_of_wheels([x, theta]: [f64; 2]) -> [f64; 2] {
     let wheels = Wheels::default().displacement(&Pose2 { x, y: 0.0, theta }).covariance;
     let [position, heading] = [wheels.m11, wheels.m33].map(|variance| MOVING.seen_through_stds * variance.sqrt());
     [position + MOVING.range_error, heading + HEADING_ERROR]
 }
 
-/// Whether a robot drives by less than these limits \[m, rad\] from one pose to the other.
+/// Whether two poses differ by less than these limits \[m, rad\].
 pub(super) fn is_within(limits: [f64; 2], a: &Pose2, b: &Pose2) -> bool {
     driven(&a.between(b)).into_iter().zip(limits).all(|(moved, limit)| moved < limit)
 }

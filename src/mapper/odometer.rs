@@ -66,8 +66,8 @@ const AT_HOME: [f64; 2] = [0.25, 0.25];
 /// it may be off besides.
 const AGAIN: [f64; 3] = [0.05, 0.03, 0.1];
 
-/// Errors of a step that the filter puts right by itself \[m, rad\], however narrow the noise is that it has learnt of the wheels. Of twelve jumps in the recorded
-/// logs, each in one step, it does so of 11 by 0.2 rad, and of 9 by 0.25 or 0.3.
+/// Odometry errors in one step that the filter corrects by itself \[m, rad\], even when it has learnt a narrow odometry noise. Of twelve single jumps in the
+/// recorded logs it corrects 11 of 0.2 rad, and 9 of 0.25 or 0.3 rad.
 const REPAIRED: [f64; 2] = [0.35, 0.25];
 
 /// Why a step is doubted.

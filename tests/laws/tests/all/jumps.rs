@@ -1,5 +1,5 @@
-//! Headings that odometry tells with a jump, in one step or again and again, in simulated drives and in a recorded log; and wheels so noisy that each of their turns
-//! is one. A jump was once held against errors of the wheels on all of the way of the last eight places: *by that rule* is said of what came of it.
+//! Headings that jump, once or repeatedly, in the odometry of simulated drives and of a recorded log; and odometry so noisy that each of its turns is a jump.
+//! Results *by the old rule* are those of a mapper that compared a jump with the odometry error over its last eight places.
 
 use super::mapper::yard;
 use super::robots::mapped;
@@ -32,7 +32,7 @@ fn drives(seed: u64) -> [Example; 3] {
     [metre, building, Recipe { spacing: 1.0, ..yard(seed) }].map(|recipe| Example::of(&recipe, SCANS))
 }
 
-/// One jump in the middle of the drive, of 0.6 rad or 1 rad: of 18 paths none is more than 6 cm worse than without, and each jump is told. By that rule 15 were.
+/// One jump in the middle of the drive, of 0.6 rad or 1 rad: none of 18 paths is more than 6 cm worse than without it, and each jump is reported. By the old rule 15 were.
 #[test]
 fn a_heading_that_jumps_once_is_not_believed() {
     for seed in 1..=2 {
@@ -54,8 +54,8 @@ fn a_heading_that_jumps_once_is_not_believed() {
     }
 }
 
-/// Jumps of 0.6 rad to either side in 6 % of the steps: of nine paths one is off by over 6 cm more than without (by that rule six), and of every one jumps are
-/// told.
+/// Jumps of 0.6 rad to either side in 6 % of the steps: one of nine paths is more than 6 cm worse than without them (six by the old rule), and jumps are reported for
+/// each.
 #[test]
 fn a_heading_that_jumps_again_and_again_is_told() {
     let mut off = 0;
@@ -77,8 +77,8 @@ fn a_heading_that_jumps_again_and_again_is_told() {
     assert!(off <= 1, "{off} of 9");
 }
 
-/// Half of the lap's noise, by which a heading is 0.25 rad off after a metre, and a scan only every metre: the mean error of six drives is 3 cm. Where the last places were
-/// matched with as those wheels had them, it was 1 m.
+/// With half of the lap's odometry noise and a scan only every metre, the mean error of six drives is 3 cm. It was 1 m where the last places stayed as that
+/// odometry had them.
 #[test]
 fn wheels_that_turn_at_random_do_not_blur_what_a_scan_is_matched_with() {
     const SEEDS: u64 = 6;
@@ -94,7 +94,7 @@ fn wheels_that_turn_at_random_do_not_blur_what_a_scan_is_matched_with() {
     assert!(mean < 0.05, "{mean} m");
 }
 
-/// Half of the Intel log with one jump, at two places: the path is that without, to 0.1 m. By that rule all four were over 3.5 m off.
+/// One jump in half of the Intel log, of two sizes and at two places: the path is within 0.1 m of that without it. By the old rule all four were more than 3.5 m off.
 #[test]
 fn a_heading_that_jumps_once_in_a_recorded_log_is_not_believed() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/intel.clf");

@@ -91,7 +91,7 @@ fn odometry_that_cannot_be_true_is_not_believed_and_told() {
 }
 
 /// Jumps in one step of up to half a metre and 0.4 rad are not told from wheels that slip: the filter's scans pull the path back, to 3 cm, and to 6 cm where it
-/// jumps along a corridor. One of 1.2 rad is doubted. Larger ones: `jumps.rs`.
+/// jumps along a corridor. One of 1.2 rad is doubted. See `jumps.rs` for jumps of the heading by 0.6 rad and more.
 #[test]
 fn small_jumps_of_odometry_are_believed_or_not_and_the_path_is_good() {
     let Example { log, truth, .. } = Example::of(&Recipe { scatter: 0.3, ..Recipe::building() }, SCANS);
