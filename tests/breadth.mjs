@@ -105,6 +105,7 @@ export const grounds = [
   [/^newcomer/, /^(widgets\/(README|src\/|kit\/)|scripts\/(build|registry|elements))/],
   [/^readme-/, /^(README\.md|scripts\/|package\.json)/],
   [/^readme-(check|bench|threads|numbers|command)/, /^(src|lab)\//],
+  [/^readme-(bench|build|offline|package|pdf|release|size|wasm)/, /^(widgets|www)\//],
 ]
 
 /** By a line of the above, or because its command names the file or its folder in tests/. @param {Unit} unit @param {string} file */
