@@ -6,7 +6,7 @@ import { Figure } from './figure'
 test.use({ contextOptions: { reducedMotion: 'reduce' } })
 
 /** As on a machine with so many processors. Counts what pages and workers give each other. */
-async function withProcessors(page: Page, processors: number, posted?: 'lost'): Promise<void> {
+async function withProcessors(page: Page, processors: number, posted?: 'lost' | 'broken'): Promise<void> {
   await page.addInitScript(
     ({ processors, posted }) => {
       Object.defineProperty(navigator, 'hardwareConcurrency', { get: () => processors })
@@ -17,6 +17,7 @@ async function withProcessors(page: Page, processors: number, posted?: 'lost'): 
         if (message.do === 'part') {
           given.parts++
           if (posted === 'lost' && given.parts > 1) return
+          if (posted === 'broken' && given.parts > 1) return void this.dispatchEvent(new ErrorEvent('error', { cancelable: true }))
         }
         Reflect.apply(postMessage, this, [message, ...rest])
       }
@@ -40,7 +41,7 @@ async function dragged(page: Page, tag: string, attributes: string, partner: boo
 }
 
 for (const [tag, attributes] of [
-  ['fastslam-lap', 'universes=64&step=90'],
+  ['fastslam-lap', 'universes=16&step=90'],
   ['fastslam-resampling', 'particles=40&step=60'],
 ] as const) {
   test(`${tag} with a partner shows what it shows alone`, async ({ page, context }) => {
@@ -53,10 +54,15 @@ for (const [tag, attributes] of [
   })
 }
 
-test('where the partner falls silent the page goes on alone', async ({ page, context }) => {
-  await withProcessors(page, 2, 'lost')
-  const shared = await dragged(page, 'fastslam-lap', 'universes=64&step=60', true)
-  const other = await context.newPage()
-  await withProcessors(other, 1)
-  expect(await dragged(other, 'fastslam-lap', 'universes=64&step=60', false)).toEqual(shared)
-})
+for (const [what, posted] of [
+  ['falls silent', 'lost'],
+  ['breaks down', 'broken'],
+] as const) {
+  test(`where the partner ${what} the page goes on alone`, async ({ page, context }) => {
+    await withProcessors(page, 2, posted)
+    const shared = await dragged(page, 'fastslam-lap', 'universes=64&step=60', true)
+    const other = await context.newPage()
+    await withProcessors(other, 1)
+    expect(await dragged(other, 'fastslam-lap', 'universes=64&step=60', false)).toEqual(shared)
+  })
+}

@@ -254,7 +254,8 @@ export class Figure implements Listener {
     this.host?.work(WORK_SLICE, true)
     this.life.tellSize()
     this.#paint(now)
-    if (plays || this.host?.busy) this.wake()
+    // A part that it waits for wakes it: frames until then would take time from both cores.
+    if (plays || (this.host?.busy && !this.host.waits)) this.wake()
   }
 
   #paint(now: number): void {

@@ -99,7 +99,12 @@ export class LocalHost implements FigureHost, InstanceUser {
   /** Has the partner begin, where there is enough to do for two. Whether it does. */
   #share(): boolean {
     if (!this.#ask(session => session.shares)) return false
-    this.#partner ??= new Partner(this.program, this.tag, part => this.#hearPart(part))
+    this.#partner ??= new Partner(
+      this.program,
+      this.tag,
+      part => this.#hearPart(part),
+      () => this.listener.wake(),
+    )
     const partner = this.#partner
     if (!partner.isReady()) return false
     partner.begin(this.state!.query)

@@ -14,12 +14,14 @@ export class Partner {
   #since: number | undefined // [ms] when the page began to wait for a part
   #heard = 0 // [ms] when the last one came
   #left = 0 // [ms] of patience
+  #late: number | undefined // a timer, for when none is left
   #rest = 0 // runs until it is asked again
 
   constructor(
     program: Program,
     tag: string,
     private readonly hear: (part: Float64Array) => void,
+    private readonly goAlone: () => void,
   ) {
     // The page itself has little to do meanwhile.
     if (navigator.hardwareConcurrency > 1) void this.#begin(program, tag)
@@ -32,7 +34,7 @@ export class Partner {
       worker.addEventListener('message', ({ data }: MessageEvent<WorkerResponse>) => this.#onMessage(data))
       worker.addEventListener('error', event => {
         event.preventDefault()
-        this.end()
+        this.#fail()
       })
       this.#worker = worker
       this.#post({ do: 'partner', module, tag })
@@ -46,9 +48,10 @@ export class Partner {
   }
 
   #onMessage(response: WorkerResponse): void {
-    if (response.told === 'failed') this.end()
+    if (response.told === 'failed') this.#fail()
     else if (response.told === 'ready') this.#ready = true
     else if (response.told === 'part' && response.run === this.#run && this.waits) {
+      clearTimeout(this.#late)
       this.#heard = performance.now()
       this.#left -= this.#heard - this.#since!
       this.hear(response.part)
@@ -78,14 +81,21 @@ export class Partner {
   give(part: Float64Array): void {
     this.#since = performance.now()
     this.#left += this.#since - this.#heard
+    this.#late = window.setTimeout(this.goAlone, this.#left)
     this.#post({ do: 'part', run: this.#run, part })
   }
 
   /** Nothing more is wanted. */
   stop(): void {
     if (this.#since !== undefined && !this.waits) this.#rest = REST
+    clearTimeout(this.#late)
     this.#run += 1
     this.#since = undefined
+  }
+
+  #fail(): void {
+    this.end()
+    this.goAlone()
   }
 
   end(): void {

@@ -1,7 +1,7 @@
 //! Steps of a filter that two programs work out together: each draws for a part of the particles.
 
-/// How many draws in a step are worth asking another program for half of them: the way there takes as long as some ten.
-const DRAWS: usize = 48;
+/// How many draws in a step are worth asking another program for half of them: of eight, the way there takes as long as four.
+const DRAWS: usize = 12;
 
 /// How many steps are worth having it begin.
 const STEPS: u32 = 16;
@@ -30,7 +30,7 @@ mod tests {
     #[test]
     fn two_programs_that_draw_a_part_each_show_what_one_shows() {
         for (tag, link) in [
-            ("fastslam-lap", "course=apartment&universes=64&step=40"),
+            ("fastslam-lap", "course=apartment&universes=16&step=40"),
             ("fastslam-resampling", "particles=40&threshold=0.6&step=40"),
         ] {
             let figure = || {
@@ -65,7 +65,7 @@ mod tests {
     #[test]
     fn a_few_universes_are_not_worth_the_way_nor_are_landmarks() {
         for (tag, link) in [
-            ("fastslam-lap", "course=apartment&universes=16&step=90"),
+            ("fastslam-lap", "course=apartment&universes=8&step=90"),
             ("fastslam-resampling", "wings=on&particles=64&step=60"),
             ("fastslam-proposal", ""),
         ] {

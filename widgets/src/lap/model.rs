@@ -19,6 +19,10 @@ use std::sync::Arc;
 /// 30 KB, and all of them 64 MB.
 const KEPT: u32 = 2048;
 
+/// Poses that are drawn again, at most, for a step that is gone back to: some 7 ms. Keyframes of every step would cost as much
+/// whenever a slider moves, as each holds tiles of its own, which are made and thrown away.
+const AGAIN: u32 = 128;
+
 /// How fast the closing of the loop is played, of the usual speed.
 const SLOW: f64 = 0.25;
 
@@ -210,9 +214,10 @@ impl LapModel {
         (0..ancestors.len() as u32).filter(|slot| !ancestors.contains(slot)).collect()
     }
 
-    /// Steps between keyframes: every step of a few universes is kept, and some of hundreds.
+    /// Steps between keyframes.
     fn interval(&self) -> u32 {
-        (self.step_count() * self.recipe.setup.particles as u32).div_ceil(KEPT).max(1)
+        let particles = self.recipe.setup.particles as u32;
+        (self.step_count() * particles).div_ceil(KEPT).max(AGAIN / particles).max(1)
     }
 
     /// The newest keyframe at a step, or before it.
