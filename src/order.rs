@@ -1,6 +1,7 @@
-//! Sorting: one sort of indices for all kinds of things, as each that is compiled weighs kilobytes in a browser.
+//! Sorting: one sort of indices for all kinds of things, as each that is compiled weighs kilobytes in a browser; and a small one.
 
 use core::cmp::Ordering;
+use std::collections::BinaryHeap;
 
 /// These things in the order that a comparison gives them, equals as they stand.
 pub fn sorted<T>(things: Vec<T>, compare: impl Fn(&T, &T) -> Ordering) -> Vec<T> {
@@ -31,12 +32,48 @@ pub(crate) fn distinct<T: Copy>(things: &[T], key: impl Fn(T) -> u64) -> Vec<T> 
 /// 2⁶⁴ over the golden ratio, which scatters neighbouring keys most evenly.
 const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// The indices of so many things in their order.
+/// Fewer things than these are put into their places one after the other: they are often in order as they come.
+const MANY: usize = 24;
+
+/// The indices of so many things in their order, equals as they stand. By std's heap, and not by its `sort_by`: that is three times the code.
 fn indices(count: usize, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..count).collect();
-    order.sort_by(|a, b| compare(*a, *b));
-    order
+    if count < MANY {
+        let mut order = Vec::with_capacity(count);
+        for index in 0..count {
+            let before = order.iter().rposition(|before| compare(*before, index).is_le());
+            order.insert(before.map_or(0, |last| last + 1), index);
+        }
+        return order;
+    }
+    let things: Vec<Thing> = (0..count).map(|index| Thing { index, compare }).collect();
+    BinaryHeap::from(things).into_sorted_vec().into_iter().map(|thing| thing.index).collect()
 }
+
+/// One of the things that are sorted.
+struct Thing<'a> {
+    index: usize,
+    compare: &'a dyn Fn(usize, usize) -> Ordering,
+}
+
+impl Ord for Thing<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        (self.compare)(self.index, other.index).then(self.index.cmp(&other.index))
+    }
+}
+
+impl PartialOrd for Thing<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Thing<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Thing<'_> {}
 
 #[cfg(test)]
 mod tests {
@@ -48,6 +85,12 @@ mod tests {
         let things = vec![(2, 'a'), (1, 'b'), (2, 'c'), (0, 'd'), (1, 'e')];
         assert_eq!(sorted(things, by_first), [(0, 'd'), (1, 'b'), (1, 'e'), (2, 'a'), (2, 'c')]);
         assert_eq!(sorted(Vec::new(), by_first), []);
+        for count in [MANY - 1, MANY, 1000] {
+            let things: Vec<(usize, usize)> = (0..count).map(|k| (k * 7919 % 31, k)).collect();
+            let mut expected = things.clone();
+            expected.sort_by_key(|thing| thing.0);
+            assert_eq!(sorted(things, |a, b| a.0.cmp(&b.0)), expected);
+        }
     }
 
     #[test]

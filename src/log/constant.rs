@@ -1,7 +1,7 @@
 //! Readings that are one number again and again: what a driver writes for an error, and no range.
 
 use super::LaserLog;
-use fastslam::order::sorted;
+use crate::ascending::ascending;
 use fastslam::sensor::longest_reading;
 
 /// No wall is at one distance, to the last digit, for more than this share of all beams.
@@ -20,7 +20,7 @@ impl LaserLog {
         let longest = (NOTHING_MET * longest_reading(&self.scans)) as f32;
         let is_range = |range: &f32| *range > 0.0 && *range < longest;
         let ranges: Vec<f32> = self.scans.iter().flat_map(|scan| &scan.ranges).copied().filter(is_range).collect();
-        let (all, ranges) = (ranges.len(), sorted(ranges, f32::total_cmp));
+        let (all, ranges) = (ranges.len(), ascending(ranges));
         let numbers: Vec<(f32, usize)> = ranges.chunk_by(|a, b| a == b).map(|same| (same[0], same.len())).collect();
         let count = |k: Option<usize>| k.and_then(|k| numbers.get(k)).map_or(0, |(_, count)| *count);
         let is_peak = |k: usize| {

@@ -1,5 +1,6 @@
 #![doc = include_str!("README.md")]
 
+mod ascending;
 #[cfg(feature = "bags")]
 mod bag;
 mod carmen;

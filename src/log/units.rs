@@ -1,8 +1,8 @@
 //! Ranges whose unit changes while a log is recorded: parts of it were made by two drivers, or by one that was set anew.
 
 use super::LaserLog;
+use crate::ascending::ascending;
 use fastslam::ops;
-use fastslam::order::sorted;
 
 /// Where ranges are in another unit from one scan on.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -56,7 +56,7 @@ impl LaserLog {
 /// The quartiles of the readings of a scan.
 fn quartiles(ranges: &[f32]) -> Option<[f64; 3]> {
     let readings: Vec<f32> = ranges.iter().copied().filter(|range| range.is_finite() && *range > 0.0).collect();
-    let readings = sorted(readings, f32::total_cmp);
+    let readings = ascending(readings);
     let quartiles = (readings.len() >= ENOUGH).then(|| [1, 2, 3].map(|k| f64::from(readings[k * readings.len() / 4])));
     quartiles.filter(|[first, _, third]| *third > SPREAD * first)
 }
