@@ -20,7 +20,8 @@ export class LocalHost implements FigureHost, InstanceUser {
   #answer = 0 // to what was asked last that was painted
   readonly #memory = new HostMemory()
   #trapped = false // it was this figure that killed the instance
-  #partner: Partner | undefined // once there was enough to do for two
+  #partner: Partner | undefined // once there was enough to do for two again
+  #shareable = 0 // runs with enough to do for two
   #part: Float64Array = new Float64Array() // of the step that it works out
   #known: ProgramState | undefined // as it was asked to be, for the time without a session
 
@@ -99,6 +100,9 @@ export class LocalHost implements FigureHost, InstanceUser {
   /** Has the partner begin, where there is enough to do for two. Whether it does. */
   #share(): boolean {
     if (!this.#ask(session => session.shares)) return false
+    // Who only reads has one such run, and a worker would be ready when it is over.
+    this.#shareable += 1
+    if (this.#shareable === 1) return false
     this.#partner ??= new Partner(
       this.program,
       this.tag,
