@@ -1,11 +1,11 @@
 //! Odometry, as far as it can be believed.
 //!
 //! A base restarts, a counter wraps, wheels stand while the robot is pushed, two sources write under one name: odometry then tells of motions
-//! that never were, or of none. A step is doubted where it is faster or more abrupt than robots are, or where the scan does not show the
-//! last place as it would from there. A doubted step is searched for upon the map of the last few places ([`LastPlaces`]), as if there were
-//! no odometry; before that, these places are put where their own scans fit, as odometry that errs blurs the map of them. If the scan fits much better where
-//! odometry cannot have led, or further off than the filter can put right, the robot is there, and odometry goes on from there. The search continues until
-//! odometry agrees with it again.
+//! that never were, or of none. A step is doubted where it is faster or more abrupt than robots are, where the scan does not show the
+//! last place as it would from there, or where it would show more of it without the turn that odometry tells. A doubted step is searched for upon
+//! the map of the last few places ([`LastPlaces`]), as if there were no odometry; before that, these places are put where their own scans fit, as
+//! odometry that errs blurs the map of them. If the scan fits much better where odometry cannot have led, or further off than the filter can put
+//! right, the robot is there, and odometry goes on from there. The search continues until odometry agrees with it again.
 //!
 //! Particles have no part in it, so that a whole log can be checked before it is mapped ([`Replay`](super::Replay)).
 //!
@@ -82,7 +82,7 @@ enum Doubt {
     Odd,
     /// Odometry stands, and the scan has changed.
     Stands,
-    /// The scan is of another place.
+    /// The scan is of another place, or shows more of the last one without the turn.
     Differs,
 }
 
@@ -194,19 +194,24 @@ impl Odometer {
         if elapsed > 0.0 && (0..2).any(|k| moved[k] > FASTEST[k] * elapsed + LATE[k]) {
             return Some(Doubt::Impossible);
         }
-        let change = driven(&last.ahead(elapsed).between(told));
+        let ahead = last.ahead(elapsed);
+        let change = driven(&ahead.between(told));
         if change[0] > STEADY[0] * f64::max(elapsed, 0.5) || change[1] > STEADY[1] {
             return Some(Doubt::Odd);
         }
         let stands = moved[0].max(moved[1]) < STANDS;
         let doubt = if stands { Doubt::Stands } else { Doubt::Differs };
-        let differs = || self.differs(scan, told, longest, AGREED[usize::from(stands)]);
-        (self.disbelieved.is_some() || differs()).then_some(doubt)
+        let agreed = |theta: f64| self.agreed(scan, &Pose2 { theta, ..*told }, longest);
+        let differs = || agreed(told.theta).is_some_and(|agreed| agreed < AGREED[usize::from(stands)]);
+        // Of a heading that jumps a third of the beams may agree: more do if it goes on as before, or stays.
+        let jumps = || [ahead.theta, last.pose.theta].into_iter().any(|theta| agreed(theta) > agreed(told.theta));
+        (self.disbelieved.is_some() || differs() || change[1] > REPAIRED[1] && jumps()).then_some(doubt)
     }
 
-    /// Whether of a scan that was taken at this pose a smaller share than this agrees with the last place.
-    fn differs(&self, scan: &LaserScan, pose: &Pose2, longest: f64, least: f64) -> bool {
-        let Some((place, before)) = &self.place else { return false };
+    /// The share of the beams of a scan that was taken at this pose that agree with the last place, of those that can be compared with it; 0 where too few can,
+    /// and `None` where there is nothing to compare.
+    fn agreed(&self, scan: &LaserScan, pose: &Pose2, longest: f64) -> Option<f64> {
+        let (place, before) = self.place.as_ref()?;
         let (before_from_now, directions) = (place.between(pose), Directions::of(before));
         let [way, turn] = driven(&before_from_now);
         let met = |range: f64| range > 0.0 && range < longest;
@@ -228,7 +233,7 @@ impl Odometer {
             }
         }
         let [looked, compared, agreed] = [looked, compared, agreed].map(f64::from);
-        looked > 0.0 && (compared < IN_COMMON * looked || agreed < least * compared)
+        (looked > 0.0).then(|| if compared < IN_COMMON * looked { 0.0 } else { agreed / compared })
     }
 
     /// Where the scan was taken, if not where odometry leads.

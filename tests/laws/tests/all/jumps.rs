@@ -11,6 +11,8 @@ use fastslam::random::{Purpose, Stream};
 use fastslam_lab::experiment::lap::ALPHAS;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_log::LaserLog;
+use flate2::read::GzDecoder;
+use std::io::Read as _;
 
 const SCANS: usize = 160;
 
@@ -94,21 +96,46 @@ fn wheels_that_turn_at_random_do_not_blur_what_a_scan_is_matched_with() {
     assert!(mean < 0.05, "{mean} m");
 }
 
-/// One jump in half of the Intel log, of two sizes and at two places: the path is within 0.1 m of that without it. By the old rule all four were more than 3.5 m off.
+/// In spite of a jump of 0.4 rad a third of a scan agrees. With a scan every 0.35 m, none of seven paths is more than 6 cm worse than without the jump. Five were where
+/// it was enough that a third agreed, even if more of the scan does without the jump.
+#[test]
+fn a_smaller_jump_is_not_believed_where_a_scan_fits_better_without_it() {
+    for seed in 6..=12 {
+        let Example { log, truth, .. } = Example::of(&Recipe { seed, scatter: 0.3, ..Recipe::building() }, SCANS);
+        let unspoilt = error(&mapped(log.clone(), 2, seed), &truth);
+        let at = log.scans.len() / 2 + seed as usize;
+        let error = error(&mapped(jumping(&log, |k| (k == at).then_some(0.4)), 2, seed), &truth);
+        println!("seed {seed}: {error:.3} m, {unspoilt:.3} m without");
+        assert!(error < unspoilt + 0.06, "seed {seed}: {error} m, {unspoilt} m without");
+    }
+}
+
+/// One jump in half of the Intel log, of two sizes and at two places, and in the ACES log: the path is within 0.1 m of that without it. By the old rule all four paths
+/// of the Intel log were more than 3.5 m off; in the ACES log that of 0.6 rad was 2.8 m off, as a third of the scan agrees in spite of it.
 #[test]
 fn a_heading_that_jumps_once_in_a_recorded_log_is_not_believed() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/intel.clf");
-    let Ok(bytes) = std::fs::read(path) else {
-        return println!("skipped: intel.clf is not in ../shared/data");
-    };
-    let mut log = fastslam_log::parse(&bytes, false).unwrap();
-    log.scans.truncate(500);
-    let unspoilt: Vec<Pose2> = mapped(log.clone(), 1, 1).path().into_iter().map(|(_, pose)| pose).collect();
-    for at in [182, 364] {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
+    for (file, at) in [("intel.clf", 182), ("intel.clf", 364), ("buildings/aces.clf.gz", 352)] {
+        let Ok(bytes) = std::fs::read(format!("{folder}{file}")) else {
+            return println!("skipped: {file} is not in ../shared/data");
+        };
+        let mut log = fastslam_log::parse(&unpacked(bytes), false).unwrap();
+        log.scans.truncate(500);
+        let unspoilt: Vec<Pose2> = mapped(log.clone(), 1, 1).path().into_iter().map(|(_, pose)| pose).collect();
         for turn in [0.6, 1.0] {
             let error = error(&mapped(jumping(&log, |k| (k == at).then_some(turn)), 1, 1), &unspoilt);
-            println!("{turn} rad at scan {at}: {error:.3} m");
-            assert!(error < 0.1, "{turn} rad at scan {at}: {error} m");
+            println!("{file}, {turn} rad at scan {at}: {error:.3} m");
+            assert!(error < 0.1, "{file}, {turn} rad at scan {at}: {error} m");
         }
     }
+}
+
+/// A file, packed or not.
+fn unpacked(bytes: Vec<u8>) -> Vec<u8> {
+    if !bytes.starts_with(&[0x1f, 0x8b]) {
+        return bytes;
+    }
+    let mut all = Vec::new();
+    GzDecoder::new(&bytes[..]).read_to_end(&mut all).unwrap();
+    all
 }
