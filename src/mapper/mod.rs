@@ -29,6 +29,8 @@ mod remark;
 mod replay;
 #[cfg(feature = "serde")]
 mod saved;
+#[cfg(feature = "serde")]
+mod saved_place;
 mod scale;
 mod scan_to_scan;
 mod settings;

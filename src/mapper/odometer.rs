@@ -120,7 +120,7 @@ pub(super) struct Odometer {
     last: Option<Last>,
     places: LastPlaces,
     /// The scan of the last place, and where it was taken.
-    #[cfg_attr(feature = "serde", serde(with = "super::saved::place"))]
+    #[cfg_attr(feature = "serde", serde(with = "super::saved_place"))]
     place: Option<(Pose2, LaserScan)>,
     /// Why the last step was not believed, if it was not.
     disbelieved: Option<Doubt>,

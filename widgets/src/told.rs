@@ -47,3 +47,23 @@ pub fn ess_text(ess: f64, particles: usize) -> String {
 pub fn unexplained(log_evidence: f64) -> Option<String> {
     (log_evidence == f64::NEG_INFINITY).then(|| common::unexplained().into())
 }
+
+/// A length \[m\], with two decimals.
+pub fn metres(length: f64) -> String {
+    fixed(length, 2)
+}
+
+/// A number of particles: one decimal where there are few.
+pub fn count(particles: f64) -> String {
+    match particles {
+        few if few < 0.1 => format!("< {}", fixed(0.1, 1)),
+        few if few < 100.0 => fixed(few, 1),
+        many => fixed(many, 0),
+    }
+}
+
+/// In whole MB, or tenths where there are few.
+pub fn megabytes(bytes: f64) -> String {
+    let megabytes = bytes / 1e6;
+    if megabytes < 10.0 { fixed(megabytes, 1) } else { fixed(megabytes, 0) }
+}

@@ -1,6 +1,7 @@
 //! Logs of the UTIAS multi-robot dataset (Leung, Halpern, Barfoot, Liu, IJRR 2011): one robot among landmarks with bar codes, and its
 //! true path by motion capture.
 
+use crate::offsets::held;
 use crate::sense::Drive;
 use crate::{Usage, in_file};
 use anyhow::{Context, Result, bail};
@@ -156,17 +157,6 @@ fn driven(odometry: &[[f64; 3]], from: f64, until: f64) -> Velocity {
         turn += turn_rate * duration;
     }
     Velocity { speed: distance / duration, turn_rate: turn / duration, duration }
-}
-
-/// Readings that each hold until the next, between two times.
-pub fn held(odometry: &[[f64; 3]], from: f64, until: f64) -> impl Iterator<Item = Velocity> {
-    let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
-    let begun = (first..odometry.len()).take_while(move |k| odometry[*k][0].max(from) < until);
-    begun.filter_map(move |k| {
-        let [time, speed, turn_rate] = odometry[k];
-        let duration = odometry.get(k + 1).map_or(until, |next| next[0].min(until)) - time.max(from);
-        (duration > 0.0).then_some(Velocity { speed, turn_rate, duration })
-    })
 }
 
 /// The true pose at a time, interpolated.

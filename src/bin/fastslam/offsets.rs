@@ -3,7 +3,6 @@
 //! Two measurements of a landmark say little of it, as their own noise is taken for it. All measurements of a drive together say it: one Gaussian of the
 //! pose, the landmarks and what is constant, as in EKF-SLAM, in which scale and drift of the odometry are constants, too.
 
-use crate::mrclam::held;
 use fastslam::geometry::Pose2;
 use fastslam::motion::{Motion, Velocity, VelocityDiffusion};
 use fastslam::nalgebra::{DMatrix, DVector, Matrix2, SMatrix, Vector2};
@@ -225,6 +224,17 @@ impl Joint {
         // Rounding must not make it lopsided, which would grow.
         self.covariance = (&self.covariance + self.covariance.transpose()) * 0.5;
     }
+}
+
+/// Readings that each hold until the next, between two times.
+pub fn held(odometry: &[[f64; 3]], from: f64, until: f64) -> impl Iterator<Item = Velocity> {
+    let first = odometry.partition_point(|row| row[0] <= from).max(1) - 1;
+    let begun = (first..odometry.len()).take_while(move |k| odometry[*k][0].max(from) < until);
+    begun.filter_map(move |k| {
+        let [time, speed, turn_rate] = odometry[k];
+        let duration = odometry.get(k + 1).map_or(until, |next| next[0].min(until)) - time.max(from);
+        (duration > 0.0).then_some(Velocity { speed, turn_rate, duration })
+    })
 }
 
 #[cfg(test)]

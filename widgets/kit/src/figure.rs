@@ -6,7 +6,7 @@ use crate::{
     challenge::Chip,
     comparison::Comparison,
     export::{Entries, Export},
-    frame,
+    frame::{self, PlacedHandle},
     model::{FigureError, Files, Model, ParamSpec, Readout, TraceLine},
     numerals::{self, Names},
     paint::{Canvas, Theme},
@@ -16,7 +16,6 @@ use crate::{
     view::{Shown, Shows, View},
     words::kit,
 };
-use serde::Serialize;
 use voice::Voice;
 
 mod asked;
@@ -45,27 +44,6 @@ struct Painted {
     rooms: Vec<Room>,
     /// \[css px\]
     width: f64,
-}
-
-/// A [`Handle`] where it lies on the page.
-#[derive(Clone, PartialEq, Debug, Serialize)]
-pub struct PlacedHandle {
-    /// [`Handle::name`].
-    pub name: &'static str,
-    /// [`Handle::title`].
-    pub title: String,
-    /// From the figure's left edge \[css px\].
-    pub x: f64,
-    /// From the figure's upper edge \[css px\].
-    pub y: f64,
-    /// [`Handle::axes`].
-    pub axes: &'static [&'static str],
-    /// [`Handle::value`].
-    pub value: f64,
-    /// [`Handle::text`].
-    pub text: String,
-    /// [`Handle::hover`].
-    pub hover: Option<Rect>,
 }
 
 impl Figure {

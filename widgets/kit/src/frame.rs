@@ -3,7 +3,6 @@
 use crate::{
     challenge::Chip,
     export::Entries,
-    figure::PlacedHandle,
     model::{FigureError, ParamSpec, Readout, TraceLine},
     prediction::Outcome,
     scene::{Rect, Room},
@@ -127,4 +126,25 @@ pub struct Layout {
     pub height: f64,
     /// What the height would be if nothing had to fit \[css px\].
     pub natural: f64,
+}
+
+/// A [`Handle`](crate::scene::Handle) where it lies on the page.
+#[derive(Clone, PartialEq, Debug, Serialize)]
+pub struct PlacedHandle {
+    /// [`Handle::name`](crate::scene::Handle::name).
+    pub name: &'static str,
+    /// [`Handle::title`](crate::scene::Handle::title).
+    pub title: String,
+    /// From the figure's left edge \[css px\].
+    pub x: f64,
+    /// From the figure's upper edge \[css px\].
+    pub y: f64,
+    /// [`Handle::axes`](crate::scene::Handle::axes).
+    pub axes: &'static [&'static str],
+    /// [`Handle::value`](crate::scene::Handle::value).
+    pub value: f64,
+    /// [`Handle::text`](crate::scene::Handle::text).
+    pub text: String,
+    /// [`Handle::hover`](crate::scene::Handle::hover).
+    pub hover: Option<Rect>,
 }

@@ -10,6 +10,8 @@ pub mod action;
 pub mod challenge;
 mod comparison;
 pub mod decimal;
+mod declared;
+mod error;
 pub mod export;
 pub mod figure;
 pub mod font;

@@ -4,46 +4,13 @@
 //! link, a saved figure and a replay are the same thing. Long computations are cut into steps: [`Model::seek`] says what is
 //! asked for, [`Model::pending`] how far that is away, and [`Model::work`] goes one step nearer.
 
-use crate::challenge::{self, Challenge, Chip};
+use crate::challenge::{Challenge, Chip};
+pub use crate::error::FigureError;
 use crate::ghost::Curves;
 pub use crate::measured::{Column, Readout, Series, TraceLine};
-use crate::param;
 pub use crate::param::{Choice, Group, Kind, ParamSpec};
 use crate::prediction::Outcome;
 use crate::recipe::{self, Recipe};
-use crate::words::kit::{MustBe, OneOf};
-use core::fmt;
-use serde::Serialize;
-
-/// Why a value was refused: the parameter, and one line that names it, what was given and what is allowed.
-#[derive(Clone, PartialEq, Eq, Debug, Serialize)]
-pub struct FigureError {
-    /// Name of the parameter as its reader knows it.
-    pub parameter: String,
-    /// What was given and what is allowed.
-    pub message: String,
-}
-
-impl FigureError {
-    /// `parameter` was given as `value`, where `allowed` names the range or the choices.
-    pub fn new(parameter: &str, value: impl fmt::Display, allowed: impl fmt::Display) -> Self {
-        let message = MustBe { parameter: &parameter, value: &value, allowed: &allowed }.say();
-        Self { parameter: parameter.into(), message }
-    }
-
-    /// `parameter` was given as something else than one of these names.
-    pub fn not_among(parameter: &str, given: &str, names: &[&str]) -> Self {
-        Self::new(parameter, param::quoted(given), OneOf { words: &names.join(", ") }.say())
-    }
-}
-
-impl fmt::Display for FigureError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl core::error::Error for FigureError {}
 
 /// What makes a version of a figure another one than the version before, for links.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -102,14 +69,6 @@ pub trait Declared {
     /// for figures that are younger. It never changes: it is what keeps older pages as they are.
     const UNSAID: usize = 1;
 
-    /// States that are worth trying, in the order in which they are offered.
-    fn challenges() -> Vec<Challenge<Self>>
-    where
-        Self: Sized,
-    {
-        Vec::new()
-    }
-
     /// What it is made by.
     fn recipe(&self) -> &Self::Recipe;
 
@@ -142,7 +101,7 @@ pub trait Parameters {
     /// [`Declared::UNSAID`].
     fn unsaid(&self) -> usize;
 
-    /// [`Declared::challenges`], and how it stands with them now.
+    /// [`Tells::challenges`], and how it stands with them now.
     fn chips(&self) -> Vec<Chip>;
 
     /// All parameters with their ranges as they are now (the last step and the number of slots depend on the setup).
@@ -164,56 +123,21 @@ pub trait Parameters {
     fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError>;
 }
 
-impl<M: Declared> Parameters for M {
-    fn title(&self) -> &'static str {
-        M::TITLE
-    }
-
-    fn changes(&self) -> &'static [Change] {
-        M::CHANGES
-    }
-
-    fn unsaid(&self) -> usize {
-        M::UNSAID
-    }
-
-    fn chips(&self) -> Vec<Chip> {
-        challenge::chips(self)
-    }
-
-    fn params(&self) -> Vec<ParamSpec> {
-        recipe::specs(self.recipe())
-    }
-
-    fn values(&self) -> Vec<(&'static str, String)> {
-        recipe::values(self.recipe())
-    }
-
-    fn configure(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        let before = self.recipe().clone();
-        adopted(self, &before, values)
-    }
-
-    fn load(&mut self, values: &[(String, String)]) -> Vec<FigureError> {
-        adopted(self, &M::Recipe::default(), values)
-    }
-}
-
 /// The value of a name; in a function of its own, as every figure asks for it.
 fn named(values: Vec<(&'static str, String)>, name: &str) -> Option<String> {
     values.into_iter().find(|(known, _)| *known == name).map(|(_, value)| value)
 }
 
-/// Has a model take over these values from a recipe on.
-#[inline(never)] // a program has it once for each figure
-fn adopted<M: Declared>(model: &mut M, before: &M::Recipe, values: &[(String, String)]) -> Vec<FigureError> {
-    let (recipe, mut refused) = recipe::with(before, values);
-    refused.extend(model.adopt(recipe).err());
-    refused
-}
-
-/// What is told of the state shown, in numbers and in words.
+/// What is told of the state shown, in numbers and in words, and of states that are worth trying.
 pub trait Tells {
+    /// States that are worth trying, in the order in which they are offered.
+    fn challenges() -> Vec<Challenge<Self>>
+    where
+        Self: Sized,
+    {
+        Vec::new()
+    }
+
     /// The numbers of the state shown.
     fn readouts(&self) -> Vec<Readout>;
 

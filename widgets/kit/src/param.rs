@@ -1,7 +1,8 @@
 //! What a parameter is called and may be, and the one place where text from outside becomes a value or a refusal.
 
 use crate::decimal;
-use crate::model::FigureError;
+use crate::error::FigureError;
+pub use crate::error::quoted;
 use crate::words::kit::{self, ANumber, AWholeNumber, OneOf, UnknownParameter, WordsOrRange};
 use serde::Serialize;
 use std::fmt::Display;
@@ -166,14 +167,6 @@ pub(crate) fn flag(text: &str) -> Option<bool> {
         "off" | "false" | "0" => Some(false),
         _ => None,
     }
-}
-
-/// What was given, on one short line whatever it was.
-pub fn quoted(text: &str) -> String {
-    let visible = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
-    let short: String = text.chars().take(40).map(visible).collect();
-    let dots = if text.chars().nth(40).is_some() { "…" } else { "" };
-    format!("\"{short}{dots}\"")
 }
 
 /// The error for a name that no parameter has.

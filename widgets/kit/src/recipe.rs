@@ -36,7 +36,7 @@ pub use menu::Menu;
 pub use place::{Field, Whole};
 
 use crate::decimal;
-use crate::model::FigureError;
+use crate::error::FigureError;
 use crate::param::{Choice, Group, Kind, ParamSpec, Value, quoted, unknown};
 use crate::words::kit;
 use held::{Chosen, Held, Written};

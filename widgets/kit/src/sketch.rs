@@ -86,10 +86,6 @@ impl<S: Sketch> Declared for S {
     const TITLE: &'static str = <S as Sketch>::TITLE;
     const CHANGES: &'static [Change] = <S as Sketch>::CHANGES;
 
-    fn challenges() -> Vec<Challenge<S>> {
-        <S as Sketch>::challenges()
-    }
-
     fn recipe(&self) -> &S {
         self
     }
@@ -101,6 +97,10 @@ impl<S: Sketch> Declared for S {
 }
 
 impl<S: Sketch> Tells for S {
+    fn challenges() -> Vec<Challenge<S>> {
+        <S as Sketch>::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         Sketch::readouts(self)
     }

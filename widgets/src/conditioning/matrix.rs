@@ -1,11 +1,14 @@
 //! The covariance of the map as a heat map.
 
-use super::{layout::Layout, model::ConditioningModel, view::ENTRY};
+use super::{layout::Layout, model::ConditioningModel};
 use crate::{
     font::{self, Weight},
     scene::{Cells, Handle, Letters, Rect, Role, Scene, Shading, plain},
     words::conditioning,
 };
+
+/// Name of the handle that chooses an entry of the matrix.
+pub const ENTRY: &str = "entry";
 
 /// All of it, with the names of the landmarks and the entry that is named.
 pub fn matrix(scene: &mut Scene, model: &ConditioningModel, layout: &Layout) {

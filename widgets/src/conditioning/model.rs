@@ -1,10 +1,6 @@
 //! The graphical model as a deterministic state: a drive, how much of it was driven, and whether the path is known.
 
-use super::{
-    challenges,
-    recipe::{Given, Recipe},
-};
-use crate::challenge::Challenge;
+use super::recipe::{Given, Recipe};
 use crate::model::{Change, Declared, FigureError, Model};
 use crate::told::{in_range, refused};
 use crate::words::conditioning;
@@ -129,10 +125,6 @@ impl Declared for ConditioningModel {
         change: "Wheels without error leave the path known; a hidden floor of their noise used to couple all landmarks.",
     }];
     const UNSAID: usize = 2;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,7 +1,8 @@
 //! What is told of the map, in numbers and in words, by what is known of the path.
 
-use super::model::ConditioningModel;
 use super::recipe::Given;
+use super::{challenges, model::ConditioningModel};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Column, Readout, Series, Tells};
 use crate::words::{common, conditioning};
@@ -43,6 +44,10 @@ fn couplings(map: &MapCovariance) -> Couplings {
 }
 
 impl Tells for ConditioningModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let Couplings { largest, mean, largest_std } = couplings(self.map());
         let count = |name, title, n: usize, of: usize, help| {

@@ -3,7 +3,7 @@
 use super::{
     graph::{Graph, LEVELS, SIGHTING, full_width, strength},
     layout::{GRAPH, Layout, MATRIX},
-    matrix::matrix,
+    matrix::{ENTRY, matrix},
     model::ConditioningModel,
     recipe::Given,
 };
@@ -12,9 +12,6 @@ use crate::{
     view::{View, whole_step},
     words::conditioning,
 };
-
-/// Name of the handle that chooses an entry of the matrix.
-pub const ENTRY: &str = "entry";
 
 /// Figure w17.4, as it is seen.
 #[derive(Default)]

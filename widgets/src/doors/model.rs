@@ -1,11 +1,7 @@
 //! Both filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{
-    challenges,
-    recipe::{END, Recipe},
-};
+use super::recipe::{END, Recipe};
 use crate::{
-    challenge::Challenge,
     ghost::{self, Curves},
     model::{Declared, FigureError, Model},
     told::{in_range, refused},
@@ -98,10 +94,6 @@ impl DoorsModel {
 impl Declared for DoorsModel {
     type Recipe = Recipe;
     const TITLE: &'static str = doors::TITLE;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,7 +1,8 @@
 //! What is told of both filters in numbers and in words.
 
-use super::model::DoorsModel;
+use super::{challenges, model::DoorsModel};
 use crate::{
+    challenge::Challenge,
     decimal::fixed,
     model::{Column, Model, Readout, Series, Tells},
     words::doors as words,
@@ -38,6 +39,10 @@ pub fn deviation(std: f64) -> String {
 }
 
 impl Tells for DoorsModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let now = self.now();
         let alive = now.explanations(self.setup());

@@ -1,11 +1,7 @@
 //! EM mapping as a deterministic state: the log, all maps up to the last iteration, and which part of which iteration is shown.
 
-use super::{
-    challenges,
-    recipe::{END, FILLS, MARK, Recipe, TICKS},
-};
+use super::recipe::{END, FILLS, MARK, Recipe, TICKS};
 use crate::{
-    challenge::Challenge,
     ghost::{self, Curves},
     kept::Kept,
     model::{Declared, FigureError, Model},
@@ -256,10 +252,6 @@ impl EmModel {
 impl Declared for EmModel {
     type Recipe = Recipe;
     const TITLE: &'static str = em::TITLE;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

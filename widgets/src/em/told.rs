@@ -1,7 +1,8 @@
 //! What is told of both methods in numbers and in words.
 
-use super::{model::EmModel, recipe::FILLS};
+use super::{challenges, model::EmModel, recipe::FILLS};
 use crate::{
+    challenge::Challenge,
     decimal::{fixed, write},
     model::{Column, Readout, Series, Tells},
     prediction::State,
@@ -15,6 +16,10 @@ pub fn percent(share: f64) -> String {
 }
 
 impl Tells for EmModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let (shown, doors) = (self.shown(), self.doors().len());
         let entropy = self.entropy().unwrap_or(f64::NAN);

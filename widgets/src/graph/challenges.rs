@@ -1,6 +1,7 @@
 //! States of the graph that are worth trying.
 
-use super::{model::GraphModel, told::metres};
+use super::model::GraphModel;
+use crate::told::metres;
 use crate::{
     challenge::{Challenge, Verdict},
     words::graph as words,

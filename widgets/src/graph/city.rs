@@ -8,6 +8,7 @@ use crate::{
         Cells, FREE, OCCUPIED, Plane, Point, Rect, Role, Sample, Scene, Shading, UNKNOWN, clip_polyline, joined,
         legend, shade,
     },
+    told::metres,
     words::{common, graph as words},
 };
 use fastslam_lab::{baseline::pose_graph::EdgeKind, experiment::graph::Solved};
@@ -70,7 +71,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
 
 fn header(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let (step, last) = (&model.step(), &model.step_count());
-    let rms = &told::metres(model.frame().error.rms);
+    let rms = &metres(model.frame().error.rms);
     let loops = &model.edges(EdgeKind::Loop).count();
     let strong = match model.graph().solved() {
         Solved::Not => words::tying_short().into(),

@@ -1,12 +1,8 @@
 //! The graph as a deterministic state: the log tied together, every iteration, and which of them is shown.
 
-use super::{
-    challenges,
-    recipe::{END, GUESSES, Recipe},
-};
+use super::recipe::{END, GUESSES, Recipe};
 use crate::told::{WEIGHED_ANEW, in_range, refused};
 use crate::{
-    challenge::Challenge,
     ghost::{self, Curves},
     kept::{Computes, Runs},
     model::{Change, Declared, FigureError, Model},
@@ -174,10 +170,6 @@ impl Declared for GraphModel {
     const TITLE: &'static str = graph::TITLE;
     const CHANGES: &'static [Change] = &[WEIGHED_ANEW, Change::Opens];
     const UNSAID: usize = 2;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

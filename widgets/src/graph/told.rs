@@ -1,19 +1,16 @@
 //! What is told of the graph in numbers and in words.
 
-use super::model::GraphModel;
+use super::{challenges, model::GraphModel};
 use crate::{
+    challenge::Challenge,
     decimal::{fixed, write},
     model::{Column, Model, Readout, Series, Tells},
     prediction::{State, off_by},
+    told::metres,
     words::graph as words,
 };
 use fastslam_lab::baseline::pose_graph::{EdgeKind, Repair};
 use fastslam_lab::experiment::graph::{PathError, Solved};
-
-/// A length \[m\], with two decimals.
-pub fn metres(length: f64) -> String {
-    fixed(length, 2)
-}
 
 /// A cost \[nats\]: whole where it is large.
 pub fn cost(cost: f64) -> String {
@@ -48,6 +45,10 @@ pub fn matched(model: &GraphModel) -> f64 {
 }
 
 impl Tells for GraphModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let (frame, start) = (self.frame(), &self.frames()[0]);
         let universes = self.universes();

@@ -5,6 +5,7 @@ use crate::{
     lap::map,
     robot::{Poses, Robots},
     scene::{LINE, Rect, Role, Scene, Shading, joined, plain},
+    told::metres,
     words::{common, graph as words},
 };
 
@@ -30,7 +31,7 @@ pub fn draw(scene: &mut Scene, model: &GraphModel, layout: &Layout) {
     let [first, second] =
         [0.0, 1.0].map(|k| Rect { y: layout.universes_told.y + k * LINE, h: LINE, ..layout.universes_told });
     let Some(report) = done else { return scene.text(first, plain(11.5, Role::Ink), words::driving()) };
-    scene.text(first, plain(11.5, Role::Ink), &words::BestOff { rms: &told::metres(report.rms_best) }.say());
+    scene.text(first, plain(11.5, Role::Ink), &words::BestOff { rms: &metres(report.rms_best) }.say());
     let (maps, graph) = (&told::kilobytes(report.map_bytes_unique), &bytes);
     let bytes = [words::Bytes { m: &m, maps, graph }.say(), words::BytesShort { maps, graph }.say()];
     scene.fit(second, plain(11.5, Role::Muted), &bytes);

@@ -1,6 +1,7 @@
 //! States of the two filters that are worth trying.
 
-use super::{model::JointModel, told::count};
+use super::model::JointModel;
+use crate::told::count;
 use crate::{
     challenge::{Challenge, Verdict},
     words::joint as words,

@@ -1,7 +1,6 @@
 //! Both filters as a deterministic state: the log, the first run's N_eff after every landmark, and the estimates of all repeats.
 
-use super::{challenges, recipe::Recipe};
-use crate::challenge::Challenge;
+use super::recipe::Recipe;
 use crate::ghost::Curves;
 use crate::kept::{Computes, Runs};
 use crate::model::{Declared, FigureError, Model};
@@ -131,10 +130,6 @@ impl JointModel {
 impl Declared for JointModel {
     type Recipe = Recipe;
     const TITLE: &'static str = joint::TITLE;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -3,10 +3,11 @@
 use super::{
     layout::{PITCH, Panel, ROWS},
     model::JointModel,
-    told::{count, length},
+    told::length,
 };
 use crate::{
     scene::{Letters, NINE_TENTHS, Plane, Point, Rect, Role, Scene, plain, strong},
+    told::count,
     words::{common, joint},
 };
 

@@ -1,9 +1,11 @@
 //! What is told of both filters in numbers and in words.
 
-use super::model::JointModel;
+use super::{challenges, model::JointModel};
+use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Readout, Series, Tells};
 use crate::prediction::{State, off_by};
+use crate::told::count;
 use crate::words::{common, joint};
 use fastslam_lab::experiment::joint::{COMPUTED, MOST, SAMPLED};
 
@@ -28,16 +30,11 @@ pub fn length(length: f64) -> String {
     if length < 0.01 { format!("{} mm", fixed(1e3 * length, 1)) } else { format!("{} m", fixed(length, 2)) }
 }
 
-/// A number of particles: one decimal where there are few.
-pub fn count(particles: f64) -> String {
-    match particles {
-        few if few < 0.1 => format!("< {}", fixed(0.1, 1)),
-        few if few < 100.0 => fixed(few, 1),
-        many => fixed(many, 0),
-    }
-}
-
 impl Tells for JointModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let m = self.particles();
         let of_all = |x: f64| common::Of { n: &count(x), all: &m }.say();

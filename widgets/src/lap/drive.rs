@@ -2,7 +2,11 @@
 //!
 //! What is done becomes part of the recipe, and so of a link. What is in the hand does not: a tool, and for the keyboard a cursor.
 
-use super::model::LapModel;
+use super::{
+    hand::{Hand, Tool},
+    model::LapModel,
+    recipe::allowed,
+};
 use crate::{
     decimal::{between, fixed},
     model::{Declared, FigureError, Model},
@@ -24,42 +28,6 @@ const LOST: f64 = 1.0;
 
 /// A line drawn shorter than this is a point \[m\].
 const POINT: f64 = 0.15;
-
-/// What a reader has in the hand.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, strum::EnumString)]
-#[strum(serialize_all = "lowercase")]
-pub enum Tool {
-    /// Drives the robot.
-    Wheel,
-    /// Puts up walls.
-    Wall,
-    /// Takes walls away.
-    Erase,
-    /// Lifts the robot, and sets it down elsewhere.
-    Lift,
-}
-
-/// A tool, and where it is.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Hand {
-    tool: Tool,
-    /// Moved by keys, on the grid of walls \[m\].
-    cursor: [f64; 2],
-    /// Whether it is by keys that the tool is used: then it has to be said where the cursor is.
-    keyed: bool,
-    /// One end of a wall, whose other end is still to be set.
-    begun: Option<[f64; 2]>,
-}
-
-/// What a text of walls or of a drive must be.
-pub fn allowed(error: EditError) -> String {
-    match error {
-        EditError::Version => lap::edit_version().into(),
-        EditError::Long | EditError::Garbled => lap::edit_garbled().into(),
-        EditError::Many => lap::EditMany { walls: &MOST_WALLS, steps: &MOST_STEPS, lifts: &MOST_LIFTS }.say(),
-        EditError::Outside => lap::edit_outside().into(),
-    }
-}
 
 impl LapModel {
     /// Takes a tool; an unknown name puts away what is in the hand.

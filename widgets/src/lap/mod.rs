@@ -4,12 +4,14 @@
 mod challenges;
 mod drive;
 mod grid;
+mod hand;
 mod layout;
 mod many;
 pub(crate) mod map;
 mod model;
 mod mosaic;
 mod overlay;
+mod paths;
 mod recipe;
 mod told;
 mod verb;

@@ -1,7 +1,6 @@
 //! The lap as a deterministic state: what was set, which step is shown, and keyframes to go back by.
 
-use super::{challenges, drive::Hand, recipe::Recipe};
-use crate::challenge::Challenge;
+use super::{hand::Hand, recipe::Recipe};
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model};
@@ -285,10 +284,6 @@ impl Declared for LapModel {
         Change::Default { name: "range-std", was: "0.1" },
     ];
     const UNSAID: usize = 8;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

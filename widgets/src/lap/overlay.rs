@@ -5,7 +5,7 @@ use super::{
     layout::Layout,
     map,
     model::LapModel,
-    view::{RAW, TRUTH, branches, odometry, true_path, true_walls},
+    paths::{RAW, TRUTH, branches, odometry, true_path, true_walls},
 };
 use crate::{
     robot::{self, Poses, Robots},

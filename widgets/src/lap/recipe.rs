@@ -1,6 +1,5 @@
 //! What a reader can set about the lap.
 
-use super::drive::allowed;
 use crate::{
     field,
     model::FigureError,
@@ -13,7 +12,7 @@ use crate::{
 use fastslam::resampling::ResamplePolicy;
 use fastslam_lab::{
     experiment::lap::LapSetup,
-    world::{Edits, Steering, WallEdits},
+    world::{EditError, Edits, MOST_LIFTS, MOST_STEPS, MOST_WALLS, Steering, WallEdits},
 };
 
 /// Everything that a link can say of the lap.
@@ -188,5 +187,15 @@ impl policy::Chosen for Recipe {
 
     fn choose(&mut self, policy: ResamplePolicy, threshold: f64) {
         (self.setup.policy, self.threshold) = (policy, threshold);
+    }
+}
+
+/// What a text of walls or of a drive must be.
+pub fn allowed(error: EditError) -> String {
+    match error {
+        EditError::Version => lap::edit_version().into(),
+        EditError::Long | EditError::Garbled => lap::edit_garbled().into(),
+        EditError::Many => lap::EditMany { walls: &MOST_WALLS, steps: &MOST_STEPS, lifts: &MOST_LIFTS }.say(),
+        EditError::Outside => lap::edit_outside().into(),
     }
 }

@@ -1,6 +1,7 @@
 //! What the lap says: a step in words, the lines of the algorithm that led to it, the readouts and the data.
 
-use super::model::LapModel;
+use super::{challenges, model::LapModel};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Column, Model, Readout, Series, Tells, TraceLine};
 use crate::told::{ess_text, pose_text, unexplained};
@@ -10,6 +11,10 @@ use fastslam_lab::experiment::ProposalKind;
 use fastslam_lab::experiment::lap::StepReport;
 
 impl Tells for LapModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let (report, m) = (self.report(), self.recipe.setup.particles);
         let metres = |name, title, x: f64, help| Readout::new(name, title, x, fixed(x, 3), "m", help);

@@ -1,6 +1,5 @@
 //! What a run leaves to go back to: the best map and all paths as they were after a scan, for as many scans as fit.
 
-use super::tree::Death;
 use fastslam::{
     genealogy::Path,
     mapper::{Map, Replay},
@@ -15,6 +14,15 @@ const LIMIT: u64 = 200_000_000;
 
 /// Steps between two looks at that memory.
 const LOOK: u32 = 32;
+
+/// The universes that one resampling let die out. The filter does not keep them: this does.
+#[derive(Clone, Debug)]
+pub struct Death {
+    /// The step.
+    pub step: u32,
+    /// Their paths.
+    pub paths: Vec<Path>,
+}
 
 /// What is drawn of a population. It takes little: a map shares all tiles with the map before but those that the scans in between have
 /// touched, and a path shares its past.

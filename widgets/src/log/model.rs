@@ -3,17 +3,15 @@
 //! A link holds the settings alone: the log is a reader's file, and no link can bring it.
 
 use super::{
-    challenges,
-    kept::{Kept, Seen},
+    kept::{Death, Kept, Seen},
     laid::Laid,
     opened::{LIMIT, Opened, swept},
     recipe::Recipe,
-    told::megabytes,
-    tree::{Death, FADE},
+    tree::FADE,
 };
-use crate::challenge::Challenge;
 use crate::decimal::write;
 use crate::model::{Change, Declared, FigureError, Files, Model};
+use crate::told::megabytes;
 use crate::unread::{self, refused};
 use crate::words::log as words;
 use fastslam::{
@@ -212,10 +210,6 @@ impl Declared for LogModel {
         ),
     ];
     const UNSAID: usize = 3;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

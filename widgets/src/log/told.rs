@@ -1,11 +1,14 @@
 //! What is told of a log: the sentence, the readouts and the data.
 
 use super::{
+    challenges,
     model::{LogModel, Moment},
     opened::Opened,
 };
+use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Model, Readout, Series, Tells};
+use crate::told::megabytes;
 use crate::told::unexplained;
 use crate::unread;
 use crate::words::{common, log as words};
@@ -14,6 +17,10 @@ use fastslam_lab::experiment::log::digest;
 use fastslam_log::LaserLog;
 
 impl Tells for LogModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let (m, step) = (self.setup().particles, self.step());
         let moment = self.history().last();
@@ -167,10 +174,4 @@ fn progress(model: &LogModel, replay: &Replay<LaserLog>) -> String {
     let apart = apart.map(|metres| words::OdometryApart { metres: &fixed(metres, 2) }.say());
     let sentences = [Some(mapped), apart, unexplained(moment.log_evidence), Some(shared), Some(died)];
     sentences.into_iter().flatten().chain(noted).collect::<Vec<_>>().join(" ")
-}
-
-/// In whole MB, or tenths where there are few.
-pub fn megabytes(bytes: f64) -> String {
-    let megabytes = bytes / 1e6;
-    if megabytes < 10.0 { fixed(megabytes, 1) } else { fixed(megabytes, 0) }
 }

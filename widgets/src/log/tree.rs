@@ -5,15 +5,6 @@ use super::kept::Seen;
 use fastslam::{genealogy::Path, geometry::Pose2};
 use std::collections::BTreeSet;
 
-/// The universes that one resampling let die out. The filter does not keep them: this does.
-#[derive(Clone, Debug)]
-pub struct Death {
-    /// The step.
-    pub step: u32,
-    /// Their paths.
-    pub paths: Vec<Path>,
-}
-
 /// Steps for which a path that died out is still drawn, fading.
 pub const FADE: u32 = 12;
 

@@ -2,10 +2,9 @@
 
 use super::{gauge, model::ProposalModel};
 use crate::{
-    ghost::{Curves, curve},
+    ghost::curve,
     scene::{GHOST, NINE_TENTHS, Plane, Point, Rect, Role, Scene, clip_polyline, joined},
 };
-use fastslam_lab::experiment::proposal::{Cloud, Proposals};
 
 /// Ranks of the curves: both clouds as x and y in turn \[m\], the Gaussian of 2.0 as its mean \[m\] and covariance \[m²\], the ratio,
 /// and from then on the lines of the region's outline.
@@ -15,17 +14,6 @@ const OUTLINE: usize = 4;
 
 /// Faintest: there are as many of them as of those of now.
 const SAMPLES: Role = Role::Level(25);
-
-/// The curves of a step. A ratio that readers are not told yet is none.
-pub fn curves(found: &Proposals, ratio: Option<f64>, outline: &[Vec<[f64; 2]>]) -> Curves {
-    let places = |cloud: &Cloud| cloud.poses.iter().flat_map(|pose| [pose.x, pose.y]).collect();
-    let (mean, covariance) = (found.gaussian.mean, found.gaussian.covariance);
-    let at = |row, column| covariance[(row, column)];
-    let gaussian = vec![mean.x, mean.y, at(0, 0), at(0, 1), at(1, 0), at(1, 1)];
-    let mut curves = vec![places(&found.motion), places(&found.aware), gaussian, ratio.into_iter().collect()];
-    curves.extend(outline.iter().map(|line| line.as_flattened().to_vec()));
-    curves
-}
 
 fn points<'a>(numbers: &'a [f64], plane: &'a Plane) -> impl Iterator<Item = Point> + 'a {
     numbers.chunks_exact(2).map(|place| plane.point([place[0], place[1]]))

@@ -1,13 +1,12 @@
 //! The step as a deterministic state: what was set, what both proposals drew, and the reader's guess.
 
-use super::{challenges, contour, ghost, recipe::Recipe};
-use crate::challenge::Challenge;
+use super::{contour, recipe::Recipe};
 use crate::ghost::Curves;
 use crate::model::{Change, Declared, FigureError, Model, Tells};
 use crate::prediction::{Outcome, State};
 use crate::told::in_range;
 use crate::words::proposal;
-use fastslam_lab::experiment::proposal::{Proposals, ProposalsSetup};
+use fastslam_lab::experiment::proposal::{Cloud, Proposals, ProposalsSetup};
 
 /// In the first version a guess was there before the reader placed one.
 const GUESSED: Change = Change::Default { name: "guess", was: "2" };
@@ -112,10 +111,6 @@ impl Declared for ProposalModel {
     ];
     const UNSAID: usize = 3;
 
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
-
     fn recipe(&self) -> &Recipe {
         &self.recipe
     }
@@ -158,10 +153,21 @@ impl Model for ProposalModel {
 
     fn curves(&self) -> Curves {
         let told = self.readouts().into_iter().find(|readout| readout.name == "ratio");
-        ghost::curves(&self.shown, told.and_then(|ratio| ratio.value), &self.outline)
+        curves(&self.shown, told.and_then(|ratio| ratio.value), &self.outline)
     }
 
     fn haunt(&mut self, pinned: Curves) {
         self.pinned = pinned;
     }
+}
+
+/// The curves of a step. A ratio that readers are not told yet is none.
+fn curves(found: &Proposals, ratio: Option<f64>, outline: &[Vec<[f64; 2]>]) -> Curves {
+    let places = |cloud: &Cloud| cloud.poses.iter().flat_map(|pose| [pose.x, pose.y]).collect();
+    let (mean, covariance) = (found.gaussian.mean, found.gaussian.covariance);
+    let at = |row, column| covariance[(row, column)];
+    let gaussian = vec![mean.x, mean.y, at(0, 0), at(0, 1), at(1, 0), at(1, 1)];
+    let mut curves = vec![places(&found.motion), places(&found.aware), gaussian, ratio.into_iter().collect()];
+    curves.extend(outline.iter().map(|line| line.as_flattened().to_vec()));
+    curves
 }

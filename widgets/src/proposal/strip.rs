@@ -1,12 +1,15 @@
 //! What both proposals are worth: the ratio in words and on a scale, and the reader's guess.
 
-use super::{gauge, ghost, layout::Layout, model::ProposalModel, recipe::RATIOS, view::GUESS};
+use super::{gauge, ghost, layout::Layout, model::ProposalModel, recipe::RATIOS};
 use crate::{
     decimal::{fixed, write},
     prediction::{State, no_guess, off_by},
     scene::{Handle, Rect, Role, Scene, plain, strong},
     words::proposal,
 };
+
+/// The guess on the scale of ratios.
+pub const GUESS: &str = "guess";
 
 /// The ratio in words and on a scale, with the reader's guess.
 pub fn ratio(scene: &mut Scene, model: &ProposalModel, layout: &Layout) {

@@ -1,6 +1,7 @@
 //! What is told of both proposals in numbers and in words.
 
-use super::model::ProposalModel;
+use super::{challenges, model::ProposalModel};
+use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Readout, Series, Tells};
 use crate::prediction::{State, off_by};
@@ -8,6 +9,10 @@ use crate::words::{common, proposal};
 use fastslam_lab::experiment::proposal::{Cloud, Proposals};
 
 impl Tells for ProposalModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let Proposals { motion, aware, exact, z, .. } = &self.shown;
         let m = self.setup().samples;

@@ -8,7 +8,7 @@ use super::{
     names::names,
     panel::{Drawn, panel},
     recipe::RATIOS,
-    strip::ratio,
+    strip::{GUESS, ratio},
     world::{LANDMARK, world},
 };
 use crate::{
@@ -21,9 +21,6 @@ use crate::{
 
 /// What an arrow key moves the landmark by \[m\].
 const STEP: f64 = 0.05;
-
-/// The guess on the scale of ratios.
-pub const GUESS: &str = "guess";
 
 /// Figure w17.3, as it is seen.
 #[derive(Default)]

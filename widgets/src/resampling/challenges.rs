@@ -1,6 +1,6 @@
 //! States of the three filters that are worth trying.
 
-use super::model::{ResamplingModel, SELECTIVE};
+use super::{model::ResamplingModel, recipe::SELECTIVE};
 use crate::{
     challenge::{Challenge, Verdict},
     decimal::fixed,

@@ -1,7 +1,6 @@
 //! Three filters as a deterministic state: what was set, how far they ran, and which step of that is shown.
 
-use super::{challenges, recipe::Recipe};
-use crate::challenge::Challenge;
+use super::recipe::{Recipe, SELECTIVE};
 use crate::ghost::{self, Curves};
 use crate::kept::Kept;
 use crate::model::{Change, Declared, FigureError, Model};
@@ -232,10 +231,6 @@ impl Declared for ResamplingModel {
     ];
     const UNSAID: usize = 3;
 
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
-
     fn recipe(&self) -> &Recipe {
         &self.recipe
     }
@@ -348,9 +343,6 @@ const TELLING: u32 = 70;
 
 /// Curves that are pinned of each policy.
 const PINNED: usize = 3;
-
-/// Index of the selective filter among [`POLICIES`].
-pub const SELECTIVE: usize = 2;
 
 #[cfg(test)]
 mod tests {

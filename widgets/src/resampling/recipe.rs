@@ -1,6 +1,6 @@
 //! What a reader can set about the three filters.
 
-use super::{model::SELECTIVE, stroke};
+use super::stroke;
 use crate::{
     field, names,
     prediction::{self, Asks, Prediction, predicts},
@@ -15,6 +15,9 @@ use fastslam_lab::{
     },
     world::Field as Landmarks,
 };
+
+/// Index of the selective filter among [`POLICIES`].
+pub const SELECTIVE: usize = 2;
 
 /// Everything that a link can say of the three filters.
 #[derive(Clone, PartialEq)]

@@ -1,7 +1,12 @@
 //! What is told of the three filters: the step in words, the lines of the algorithm, the readouts and the data.
 
-use super::model::{Moment, ResamplingModel, SELECTIVE};
 use super::stroke;
+use super::{
+    challenges,
+    model::{Moment, ResamplingModel},
+    recipe::SELECTIVE,
+};
+use crate::challenge::Challenge;
 use crate::decimal::{fixed, write};
 use crate::model::{Column, Model, Readout, Series, Tells, TraceLine};
 use crate::names;
@@ -11,6 +16,10 @@ use crate::words::{common, resampling};
 use fastslam_lab::experiment::resampling::{POLICIES, PolicyCourse};
 
 impl Tells for ResamplingModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let (step, m) = (self.cursor(), self.setup().particles);
         let mut readouts = Vec::new();

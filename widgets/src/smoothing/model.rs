@@ -1,8 +1,7 @@
 //! The filter's record and the sweeps as a deterministic state: what was set, how many sweeps are done, and how many of them are shown.
 
-use super::{challenges, recipe::Recipe};
+use super::recipe::Recipe;
 use crate::{
-    challenge::Challenge,
     ghost::Curves,
     kept::{Computes, Runs},
     model::{Change, Declared, FigureError, Model},
@@ -152,10 +151,6 @@ impl Declared for SmoothingModel {
         ),
     ];
     const UNSAID: usize = 3;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

@@ -1,7 +1,11 @@
 //! What is told of record and draws in numbers and in words.
 
-use super::model::{Account, SmoothingModel};
+use super::{
+    challenges,
+    model::{Account, SmoothingModel},
+};
 use crate::{
+    challenge::Challenge,
     decimal::{fixed, write},
     model::{Column, Readout, Series, Tells},
     prediction::{State, off_by},
@@ -21,6 +25,10 @@ pub fn spread(account: &Account, step: u32) -> f64 {
 }
 
 impl Tells for SmoothingModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let (before, after) = (self.before(), self.after());
         let number = |x: Option<f64>| x.unwrap_or(f64::NAN);

@@ -6,7 +6,6 @@ use super::{
     recipe::MOST,
     share::{self, role},
     told::name,
-    view::{GUESS, GUESS_AWARE, GUESS_FLOOR},
 };
 use crate::{
     decimal::write,
@@ -16,6 +15,13 @@ use crate::{
     words::universes as words,
 };
 use fastslam_lab::experiment::ProposalKind;
+
+/// The guesses.
+pub const GUESS: &str = "guess";
+/// See [`GUESS`].
+pub const GUESS_AWARE: &str = "guess-aware";
+/// See [`GUESS`].
+pub const GUESS_FLOOR: &str = "guess-floor";
 
 /// Where the markers stand before there is a guess, apart from each other and away from the ends: the motion prior's, the aware
 /// proposal's, and that of N_eff \[%\].
@@ -118,16 +124,6 @@ fn floor(scene: &mut Scene, model: &UniversesModel, part: &Part, taken: &mut Vec
 fn marker(scene: &mut Scene, taken: &mut Vec<Rect>, area: &Rect, at: Point, said: &[String; 2]) {
     scene.disc(at, 6.0, Role::Accent);
     scene.label(taken, area, at, said, &AROUND);
-}
-
-/// What is asked before, and what both proposals need after.
-pub fn asked(model: &UniversesModel) -> [String; 2] {
-    if model.hides() {
-        return [words::question().into(), words::question_short().into()];
-    }
-    let [motion, aware] = PROPOSALS.map(|proposal| model.needs(proposal));
-    let short = words::NeedsBoth { motion: &motion, aware: &aware }.say();
-    [model.judged().unwrap_or_default(), short]
 }
 
 /// The nearest that can be guessed.

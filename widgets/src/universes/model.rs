@@ -1,13 +1,11 @@
 //! Shares of laps that end well, from the errors that come with the figure, and the depletion of the one step.
 
 use super::{
-    challenges,
     recipe::{LAST, NOISES, Recipe},
     shipped::{self, LAPS},
 };
 use crate::told::{WEIGHED_ANEW, in_range};
 use crate::{
-    challenge::Challenge,
     model::{Change, Declared, FigureError, Model},
     prediction::{Outcome, State},
     words::universes as words,
@@ -150,10 +148,6 @@ impl Declared for UniversesModel {
     const TITLE: &'static str = words::TITLE;
     const CHANGES: &'static [Change] = &[WEIGHED_ANEW];
     const UNSAID: usize = 2;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

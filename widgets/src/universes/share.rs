@@ -1,12 +1,10 @@
 //! The share of laps that end well over M, and beside it, on the same levels, what the rule makes of such a share.
 
 use super::{
-    guess::asked,
     layout::{Layout, Part, SCALE},
     model::{PROPOSALS, UniversesModel},
     recipe::{LAST, MOST, nearest},
-    told::{name, percent},
-    view::UNIVERSES,
+    told::{asked, name, percent},
 };
 use crate::{
     decimal::write,
@@ -20,6 +18,9 @@ use fastslam_lab::experiment::{
     Fraction, ProposalKind,
     universes::{ENOUGH, TRIED},
 };
+
+/// The number of universes that is read.
+pub const UNIVERSES: &str = "universes";
 
 /// Font size of what is written at the charts \[css px\].
 pub const SIZE: f64 = 11.5;

@@ -1,8 +1,12 @@
 //! What is told of the universes in numbers and in words.
 
-use super::model::{PROPOSALS, UniversesModel};
 use super::recipe::LAST;
+use super::{
+    challenges,
+    model::{PROPOSALS, UniversesModel},
+};
 use crate::{
+    challenge::Challenge,
     decimal::{fixed, write},
     model::{Column, Readout, Series, Tells},
     prediction::off_by,
@@ -27,6 +31,10 @@ pub fn percent(share: f64) -> String {
 }
 
 impl Tells for UniversesModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let known = |x: f64| if self.hides() { f64::NAN } else { x };
         let needs = |proposal| known(self.sufficient(proposal).map_or(f64::NAN, |needs| needs as f64));
@@ -169,4 +177,14 @@ impl UniversesModel {
         let more = || words::MoreThan { most: &TRIED[TRIED.len() - 1] }.say();
         self.sufficient(proposal).map_or_else(more, |needs| needs.to_string())
     }
+}
+
+/// What is asked before, and what both proposals need after.
+pub fn asked(model: &UniversesModel) -> [String; 2] {
+    if model.hides() {
+        return [words::question().into(), words::question_short().into()];
+    }
+    let [motion, aware] = PROPOSALS.map(|proposal| model.needs(proposal));
+    let short = words::NeedsBoth { motion: &motion, aware: &aware }.say();
+    [model.judged().unwrap_or_default(), short]
 }

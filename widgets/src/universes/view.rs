@@ -2,11 +2,11 @@
 
 use super::{
     depletion::depletion,
-    guess::{MIDDLE, guesses, within},
+    guess::{GUESS, GUESS_AWARE, GUESS_FLOOR, MIDDLE, guesses, within},
     layout::Layout,
     model::UniversesModel,
     recipe::nearest,
-    share::{self, cursor, rule, share},
+    share::{self, UNIVERSES, cursor, rule, share},
 };
 use crate::{
     model::Declared,
@@ -14,16 +14,6 @@ use crate::{
     view::{View, whole_step},
 };
 use fastslam_lab::experiment::universes::TRIED;
-
-/// The number of universes that is read.
-pub const UNIVERSES: &str = "universes";
-
-/// The guesses.
-pub const GUESS: &str = "guess";
-/// See [`GUESS`].
-pub const GUESS_AWARE: &str = "guess-aware";
-/// See [`GUESS`].
-pub const GUESS_FLOOR: &str = "guess-floor";
 
 /// The figure *how many are enough*, as it is seen.
 #[derive(Default)]

@@ -3,7 +3,6 @@
 use super::{
     layout::Layout,
     model::WorkedExampleModel,
-    plot::lever,
     recipe::VARIANCE,
     steps::{number_of, pointed, steps},
     window::{SIGMAS, Thing, nearest, plane},
@@ -11,6 +10,7 @@ use super::{
 use crate::{
     decimal::rounded,
     model::Declared,
+    robot::Poses as _,
     scene::{Plane, Point},
     view::whole_step,
 };
@@ -241,4 +241,17 @@ fn higher([xx, xy, yy]: [f64; 3]) -> [f64; 3] {
     let least = xy * xy / (xx * CORRELATED * CORRELATED);
     let yy = rounded((1e3 * yy.max(least).max(LEAST) - 1e-6).ceil() / 1e3, 3);
     [xx, xy, yy.min(VARIANCE.1)]
+}
+
+/// Where the lever ends by which a robot is turned: not so near to the robot, or to the other's, that a finger takes both, and not
+/// outside of the drawing.
+pub fn lever(example: &WorkedExample, slot: usize, plane: &Plane) -> Point {
+    let pose = &example.updates[slot].world_from_robot;
+    let from = plane.position(pose);
+    let (sin, cos) = ops::sin_cos(pose.theta);
+    let tip = nearest([from[0] + HEADINGS[slot] * cos, from[1] - HEADINGS[slot] * sin], &plane.area.inset(8.0));
+    // As far along its direction as the edge that it meets first allows.
+    let share = |k: usize, along: f64| if along == 0.0 { 1.0 } else { ((tip[k] - from[k]) / along).max(0.0) };
+    let length = HEADINGS[slot] * share(0, HEADINGS[slot] * cos).min(share(1, -HEADINGS[slot] * sin));
+    [from[0] + length * cos, from[1] - length * sin]
 }

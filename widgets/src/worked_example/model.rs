@@ -1,7 +1,6 @@
 //! The example as a deterministic state: its inputs.
 
-use super::{challenges, recipe::Recipe};
-use crate::challenge::Challenge;
+use super::recipe::Recipe;
 use crate::model::{Declared, FigureError, Model};
 use crate::words::worked_example;
 use fastslam_lab::experiment::worked_example::WorkedExample;
@@ -29,10 +28,6 @@ impl WorkedExampleModel {
 impl Declared for WorkedExampleModel {
     type Recipe = Recipe;
     const TITLE: &'static str = worked_example::TITLE;
-
-    fn challenges() -> Vec<Challenge<Self>> {
-        challenges::challenges()
-    }
 
     fn recipe(&self) -> &Recipe {
         &self.recipe

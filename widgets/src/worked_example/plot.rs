@@ -1,8 +1,8 @@
 //! The drawing: robots, what they see, the landmark before and after, and what of them is grasped.
 
 use super::{
-    hands::{Grip, HEADINGS},
-    window::{SIGMAS, Thing, nearest, plane},
+    hands::Grip,
+    window::{SIGMAS, Thing, plane},
 };
 use crate::{
     decimal::write,
@@ -184,17 +184,4 @@ pub fn after(role: Role) -> Sample<'static> {
         landmark(scene, [place.right() - 9.0, y], 1.25, role);
     };
     Sample::new(draw).wide(50.0)
-}
-
-/// Where the lever ends by which a robot is turned: not so near to the robot, or to the other's, that a finger takes both, and not
-/// outside of the drawing.
-pub fn lever(example: &WorkedExample, slot: usize, plane: &Plane) -> Point {
-    let pose = &example.updates[slot].world_from_robot;
-    let from = plane.position(pose);
-    let (sin, cos) = ops::sin_cos(pose.theta);
-    let tip = nearest([from[0] + HEADINGS[slot] * cos, from[1] - HEADINGS[slot] * sin], &plane.area.inset(8.0));
-    // As far along its direction as the edge that it meets first allows.
-    let share = |k: usize, along: f64| if along == 0.0 { 1.0 } else { ((tip[k] - from[k]) / along).max(0.0) };
-    let length = HEADINGS[slot] * share(0, HEADINGS[slot] * cos).min(share(1, -HEADINGS[slot] * sin));
-    [from[0] + length * cos, from[1] - length * sin]
 }

@@ -1,7 +1,8 @@
 //! What is told of the example in numbers and in words.
 
-use super::model::WorkedExampleModel;
+use super::{challenges, model::WorkedExampleModel};
 use super::{recipe::plain, steps};
+use crate::challenge::Challenge;
 use crate::decimal::fixed;
 use crate::model::{Column, Readout, Series, Tells, TraceLine};
 use crate::told::{ess_text, pose_text};
@@ -13,6 +14,10 @@ use fastslam_lab::experiment::worked_example::{Update, WorkedExample};
 const DIGITS: i32 = 7;
 
 impl Tells for WorkedExampleModel {
+    fn challenges() -> Vec<Challenge<Self>> {
+        challenges::challenges()
+    }
+
     fn readouts(&self) -> Vec<Readout> {
         let WorkedExample { updates: [one, two], weights, ess, resamples, .. } = &self.example;
         let density = |name, title, update: &Update| {
