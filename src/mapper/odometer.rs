@@ -2,10 +2,11 @@
 //!
 //! A base restarts, a counter wraps, wheels stand while the robot is pushed, two sources write under one name: odometry then tells of motions
 //! that never were, or of none. A step is doubted where it is faster or more abrupt than robots are, where the scan does not show the
-//! last place as it would from there, or where it would show more of it without the turn that odometry tells. A doubted step is searched for upon
+//! last place as it would from there, or where it would show more of it if the robot went on as before, or stayed. A doubted step is searched for upon
 //! the map of the last few places ([`LastPlaces`]), as if there were no odometry; before that, these places are put where their own scans fit, as
 //! odometry that errs blurs the map of them. If the scan fits much better where odometry cannot have led, or further off than the filter can put
-//! right, the robot is there, and odometry goes on from there. The search continues until odometry agrees with it again.
+//! right, the robot is there, and odometry goes on from there. Where the robot went on as before, less is proof enough. The search continues until
+//! odometry agrees with it again.
 //!
 //! Particles have no part in it, so that a whole log can be checked before it is mapped ([`Replay`](super::Replay)).
 //!
@@ -20,7 +21,7 @@ use crate::geometry::{Pose2, driven};
 use crate::ops;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
-use crate::sensor::LaserScan;
+use crate::sensor::{LaserScan, Scan};
 
 /// A step of odometry that was not believed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -67,7 +68,7 @@ const AT_HOME: [f64; 2] = [0.25, 0.25];
 const AGAIN: [f64; 3] = [0.05, 0.03, 0.1];
 
 /// Odometry errors in one step that the filter corrects by itself \[m, rad\], even when it has learnt a narrow odometry noise. Of twelve single jumps in the
-/// recorded logs it corrects 11 of 0.2 rad, and 9 of 0.25 or 0.3 rad.
+/// recorded logs it corrects 11 of 0.2 rad, and 9 of 0.25 or 0.3 rad. A motion that has changed by less is steady.
 const REPAIRED: [f64; 2] = [0.35, 0.25];
 
 /// Why a step is doubted.
@@ -82,7 +83,7 @@ enum Doubt {
     Odd,
     /// Odometry stands, and the scan has changed.
     Stands,
-    /// The scan is of another place, or shows more of the last one without the turn.
+    /// The scan is of another place, or shows more of the last one if the robot went on as before, or stayed.
     Differs,
 }
 
@@ -104,6 +105,10 @@ const ODD: Proof = Proof { gain: 0.05, ..CLEAR };
 
 /// Enough of a robot that is said to stand. People may walk about before it.
 const STANDING: Proof = Proof { gain: 0.05, fits: 0.8, disputed: 0.05 };
+
+/// Enough of a robot that goes on as before, where the map disputes more than [`REFUTED`] wherever errors that the filter corrects can have led.
+const GOES_ON: Proof = Proof { gain: 0.2, fits: 0.3, disputed: 1.0 };
+const REFUTED: f64 = 0.75;
 
 impl Proof {
     fn is_given(&self, gain: f64, found: &Agreement) -> bool {
@@ -138,6 +143,8 @@ struct Last {
     /// The motion that led there.
     motion: Pose2,
     elapsed: f64,
+    /// Whether the motion before it was about the same: only then does the next one follow from it.
+    steady: bool,
 }
 
 impl Odometer {
@@ -173,7 +180,8 @@ impl Odometer {
         }
         let since = |last: Last| (last.pose.between(&pose), scan.time - last.time);
         let (motion, elapsed) = self.last.map_or((Pose2::default(), 0.0), since);
-        self.last = Some(Last { time: scan.time, told: scan.odometry, pose, motion, elapsed });
+        let steady = self.last.is_some_and(|last| is_within(REPAIRED, &last.ahead(elapsed), &pose));
+        self.last = Some(Last { time: scan.time, told: scan.odometry, pose, motion, elapsed, steady });
         if self.places.take(pose, || scan.end_points(longest, MAX_RANGE)) {
             self.place = Some((pose, scan.clone()));
         }
@@ -201,11 +209,13 @@ impl Odometer {
         }
         let stands = moved[0].max(moved[1]) < STANDS;
         let doubt = if stands { Doubt::Stands } else { Doubt::Differs };
-        let agreed = |theta: f64| self.agreed(scan, &Pose2 { theta, ..*told }, longest);
-        let differs = || agreed(told.theta).is_some_and(|agreed| agreed < AGREED[usize::from(stands)]);
-        // Of a heading that jumps a third of the beams may agree: more do if it goes on as before, or stays.
-        let jumps = || [ahead.theta, last.pose.theta].into_iter().any(|theta| agreed(theta) > agreed(told.theta));
-        (self.disbelieved.is_some() || differs() || change[1] > REPAIRED[1] && jumps()).then_some(doubt)
+        let agreed = |pose: &Pose2| self.agreed(scan, pose, longest);
+        let as_told = agreed(told);
+        let differs = as_told.is_some_and(|agreed| agreed < AGREED[usize::from(stands)]);
+        // Of a heading that jumps a third of the beams may agree, and of a jump along a corridor most.
+        let jumps = change[1] > REPAIRED[1] || last.steady && change[0] > REPAIRED[0];
+        let more = || last.without_jump(elapsed, told).iter().any(|pose| agreed(pose) > as_told);
+        (self.disbelieved.is_some() || differs || jumps && more()).then_some(doubt)
     }
 
     /// The share of the beams of a scan that was taken at this pose that agree with the last place, of those that can be compared with it; 0 where too few can,
@@ -236,35 +246,49 @@ impl Odometer {
         (looked > 0.0).then(|| if compared < IN_COMMON * looked { 0.0 } else { agreed / compared })
     }
 
+    /// Whether the last places show what the scan does about where odometry leads, and not clearly more of it at one of these poses.
+    fn is_at_home(&mut self, told: &Pose2, others: &[Pose2], ends: &Scan) -> bool {
+        let near = self.places.matched(&[*told], ends, &|pose| is_within(REPAIRED, told, pose));
+        near.is_some_and(|near| {
+            let (agreement, [disputed, fits]) = (self.places.agreement(&near.pose, ends), AT_HOME);
+            let clear = near.value + ODD.gain * ends.hits.len() as f64;
+            let mut other = || self.places.matched(others, ends, &|_| true);
+            agreement.disputed() < disputed && agreement.fits > fits && other().is_none_or(|other| other.value < clear)
+        })
+    }
+
     /// Where the scan was taken, if not where odometry leads.
     fn searched(&mut self, last: &Last, scan: &LaserScan, longest: f64, told: &Pose2, doubt: Doubt) -> Option<Pose2> {
         let ends = scan.end_points(longest, MAX_RANGE);
         if ends.hits.len() < ENOUGH && doubt != Doubt::Impossible {
             return None;
         }
-        if doubt == Doubt::Differs
-            && let Some(there) = self.places.matched(&[*told], &ends, &|pose| is_within(REPAIRED, told, pose))
-        {
-            let (there, [disputed, fits]) = (self.places.agreement(&there.pose, &ends), AT_HOME);
-            if there.disputed() < disputed && there.fits > fits {
-                return None;
-            }
+        let elapsed = scan.time - last.time;
+        if doubt == Doubt::Differs && self.is_at_home(told, &last.without_jump(elapsed, told), &ends) {
+            return None;
         }
         self.places.tighten();
-        let ahead = last.ahead(scan.time - last.time);
+        let ahead = last.ahead(elapsed);
         let best = self.places.searched(&[ahead, last.pose, *told].map(fan).concat(), &last.pose, &ends, 0.0)?;
+        let agrees = |with: &Pose2| {
+            let ([way, turn], [position, heading, share]) = (driven(&last.pose.between(&best.pose)), AGAIN);
+            is_within([position + share * way, heading + share * turn], with, &best.pose)
+        };
+        let count = ends.hits.len() as f64;
         let of_way = errors_of_wheels(self.places.span(told));
         let (errors, less) = match doubt {
             Doubt::Impossible => return Some(best.pose),
+            Doubt::Still if agrees(told) => return None,
+            Doubt::Still if is_within(REPAIRED, told, &best.pose) => return Some(best.pose),
+            // Rooms look alike: of two places where a scan fits about as well, it was taken where odometry leads.
             Doubt::Still => {
-                let ([way, turn], [position, heading, share]) = (driven(&last.pose.between(&best.pose)), AGAIN);
-                let agrees = is_within([position + share * way, heading + share * turn], told, &best.pose);
-                return (!agrees).then_some(best.pose);
+                let near = self.places.matched(&fan(*told), &ends, &|pose| is_within(REPAIRED, told, pose));
+                return Some(near.filter(|near| near.value >= best.value - ODD.gain * count).unwrap_or(best).pose);
             }
             // Errors of the wheels on all of the way are in the map of the places. Of a robot that stands the last place alone is asked.
             Doubt::Odd if !is_within(of_way, told, &best.pose) => (of_way, Some(ODD)),
             Doubt::Stands => (errors_of_wheels([0.0; 2]), Some(STANDING)),
-            Doubt::Odd | Doubt::Differs => (REPAIRED, None),
+            Doubt::Odd | Doubt::Differs => (REPAIRED, (last.steady && agrees(&ahead)).then_some(ODD)),
         };
         let is_explained = |pose: &Pose2| is_within(errors, told, pose);
         if is_explained(&best.pose) {
@@ -272,8 +296,14 @@ impl Odometer {
         }
         let there = self.places.matched(&fan(*told), &ends, &is_explained);
         let found = self.places.agreement(&best.pose, &ends);
-        let gain = there.map_or(f64::INFINITY, |there| (best.value - there.value) / ends.hits.len() as f64);
-        let is_proved = CLEAR.is_given(gain, &found) || less.is_some_and(|less| less.is_given(gain, &found));
+        let gain = there.map_or(f64::INFINITY, |there| (best.value - there.value) / count);
+        let goes_on =
+            last.steady && last.goes_on(elapsed, told).iter().any(|pose| is_within(REPAIRED, pose, &best.pose));
+        let mut is_refuted =
+            || there.is_none_or(|there| self.places.agreement(&there.pose, &ends).disputed() > REFUTED);
+        let is_proved = CLEAR.is_given(gain, &found)
+            || less.is_some_and(|less| less.is_given(gain, &found))
+            || goes_on && GOES_ON.is_given(gain, &found) && is_refuted();
         is_proved.then_some(best.pose)
     }
 }
@@ -300,5 +330,17 @@ impl Last {
         let times = if self.elapsed > 0.0 && elapsed >= 0.0 { (elapsed / self.elapsed).min(3.0) } else { 1.0 };
         let Pose2 { x, y, theta } = self.motion;
         self.pose.compose(&Pose2::new(times * x, times * y, times * theta))
+    }
+
+    /// The same, and with the position that is told.
+    fn goes_on(&self, elapsed: f64, told: &Pose2) -> [Pose2; 2] {
+        let ahead = self.ahead(elapsed);
+        [ahead, Pose2 { theta: ahead.theta, ..*told }]
+    }
+
+    /// Where it is without a jump of what is told: it goes on or stays, or its heading does.
+    fn without_jump(&self, elapsed: f64, told: &Pose2) -> [Pose2; 4] {
+        let [ahead, turned_ahead] = self.goes_on(elapsed, told);
+        [ahead, turned_ahead, self.pose, Pose2 { theta: self.pose.theta, ..*told }]
     }
 }

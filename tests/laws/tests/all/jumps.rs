@@ -12,19 +12,24 @@ use fastslam_lab::experiment::lap::ALPHAS;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_log::LaserLog;
 use flate2::read::GzDecoder;
+use std::f64::consts::PI;
 use std::io::Read as _;
 
 const SCANS: usize = 160;
 
+/// The log with odometry of which each step, by its number, is told otherwise.
+fn spoilt(log: &LaserLog, told: impl Fn(usize, Pose2) -> Pose2) -> LaserLog {
+    let mut spoilt = log.clone();
+    for k in 1..log.scans.len() {
+        let step = told(k, log.scans[k - 1].odometry.between(&log.scans[k].odometry));
+        spoilt.scans[k].odometry = spoilt.scans[k - 1].odometry.compose(&step);
+    }
+    spoilt
+}
+
 /// The log with odometry that turns by so much more \[rad\] at each of these steps.
 fn jumping(log: &LaserLog, jump: impl Fn(usize) -> Option<f64>) -> LaserLog {
-    let mut jumping = log.clone();
-    for k in 1..log.scans.len() {
-        let Pose2 { x, y, theta } = log.scans[k - 1].odometry.between(&log.scans[k].odometry);
-        let step = Pose2::new(x, y, theta + jump(k).unwrap_or(0.0));
-        jumping.scans[k].odometry = jumping.scans[k - 1].odometry.compose(&step);
-    }
-    jumping
+    spoilt(log, |k, Pose2 { x, y, theta }| Pose2::new(x, y, theta + jump(k).unwrap_or(0.0)))
 }
 
 /// Drives through the building with a scan every metre and every 0.35 m, and round the yard with a scan every metre.
@@ -79,6 +84,37 @@ fn a_heading_that_jumps_again_and_again_is_told() {
     assert!(off <= 1, "{off} of 9");
 }
 
+/// In 5 % of the steps wheels tell of three times the motion, or the robot is carried 1 m to anywhere. With a scan every 0.35 m, along corridors, the mean error of
+/// eight paths is 5 and 14 cm, and odometry is reported to be contradicted in each. By the rule that asked only for a turn that has changed, it was 63 cm of such wheels.
+#[test]
+fn a_position_that_jumps_is_not_believed_where_a_scan_fits_better_without_it() {
+    const SEEDS: u64 = 8;
+    let drawn = |seed: u64, k: usize, of: u32| Stream::at(seed, Purpose::TRIAL, k as u32, of).uniform();
+    let aside = |way: Pose2, towards: f64| {
+        let (sin, cos) = (2.0 * PI * towards).sin_cos();
+        Pose2::new(way.x + cos, way.y + sin, way.theta)
+    };
+    for (kind, most) in [("three times the motion", 0.08), ("carried", 0.15)] {
+        let errors: Vec<f64> = (1..=SEEDS)
+            .map(|seed| {
+                let Example { log, truth, .. } =
+                    Example::of(&Recipe { seed, scatter: 0.3, ..Recipe::building() }, SCANS);
+                let log = spoilt(&log, |k, step| match (drawn(seed, k, 0) < 0.05, kind) {
+                    (true, "carried") => aside(step, drawn(seed, k, 1)),
+                    (true, _) => Pose2::new(3.0 * step.x, 3.0 * step.y, 3.0 * step.theta),
+                    (false, _) => step,
+                });
+                let mapper = mapped(log, 2, seed);
+                assert!(matches!(mapper.remarks()[..], [Remark::Contradicted { .. }, ..]), "{kind}, seed {seed}");
+                error(&mapper, &truth)
+            })
+            .collect();
+        println!("{kind}: {errors:.3?}");
+        let mean = errors.iter().sum::<f64>() / SEEDS as f64;
+        assert!(mean < most, "{kind}: {mean} m");
+    }
+}
+
 /// With half of the lap's odometry noise and a scan only every metre, the mean error of six drives is 3 cm. It was 1 m where the last places stayed as that
 /// odometry had them.
 #[test]
@@ -110,22 +146,28 @@ fn a_smaller_jump_is_not_believed_where_a_scan_fits_better_without_it() {
     }
 }
 
-/// One jump in half of the Intel log, of two sizes and at two places, and in the ACES log: the path is within 0.1 m of that without it. By the old rule all four paths
-/// of the Intel log were more than 3.5 m off; in the ACES log that of 0.6 rad was 2.8 m off, as a third of the scan agrees in spite of it.
+/// One jump in the Intel log, of two sizes and at two places, and in those of ACES and of Freiburg's campus: the path is about that without it. By the old rule all
+/// four paths of the Intel log were more than 3.5 m off; in the ACES log that of 0.6 rad was 2.8 m off, as a third of the scan agrees in spite of it; on the campus
+/// both were more than 9 m off, as only two fifths of the scan fit where the robot is.
 #[test]
 fn a_heading_that_jumps_once_in_a_recorded_log_is_not_believed() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
-    for (file, at) in [("intel.clf", 182), ("intel.clf", 364), ("buildings/aces.clf.gz", 352)] {
+    for (file, at, turns, most) in [
+        ("intel.clf", 182, [0.6, 1.0], 0.1),
+        ("intel.clf", 364, [0.6, 1.0], 0.1),
+        ("buildings/aces.clf.gz", 352, [0.6, 1.0], 0.1),
+        ("buildings/freiburg-campus.clf.gz", 401, [0.4, 0.6], 0.3),
+    ] {
         let Ok(bytes) = std::fs::read(format!("{folder}{file}")) else {
             return println!("skipped: {file} is not in ../shared/data");
         };
         let mut log = fastslam_log::parse(&unpacked(bytes), false).unwrap();
         log.scans.truncate(500);
         let unspoilt: Vec<Pose2> = mapped(log.clone(), 1, 1).path().into_iter().map(|(_, pose)| pose).collect();
-        for turn in [0.6, 1.0] {
+        for turn in turns {
             let error = error(&mapped(jumping(&log, |k| (k == at).then_some(turn)), 1, 1), &unspoilt);
             println!("{file}, {turn} rad at scan {at}: {error:.3} m");
-            assert!(error < 0.1, "{file}, {turn} rad at scan {at}: {error} m");
+            assert!(error < most, "{file}, {turn} rad at scan {at}: {error} m");
         }
     }
 }
