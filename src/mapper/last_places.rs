@@ -99,12 +99,13 @@ impl LastPlaces {
         }
         let mut places = self.places.iter().rev().map(|(pose, _)| pose);
         let way = places.next().zip(places.next()).map_or(0.0, |(to, from)| from.distance(to));
-        let turns = (-TURNS..=TURNS).map(|k| TURN * f64::from(k));
-        let on = |turn: f64| {
+        let mut starts = Vec::new();
+        for k in -TURNS..=TURNS {
+            let turn = TURN * f64::from(k);
             let half = Pose2::new(0.0, 0.0, 0.5 * turn);
-            last.compose(&half).compose(&Pose2::new(way, 0.0, 0.0)).compose(&half)
-        };
-        let starts: Vec<Pose2> = turns.flat_map(|turn| [last.compose(&Pose2::new(0.0, 0.0, turn)), on(turn)]).collect();
+            let on = last.compose(&half).compose(&Pose2::new(way, 0.0, 0.0)).compose(&half);
+            starts.extend([last.compose(&Pose2::new(0.0, 0.0, turn)), on]);
+        }
         self.matched(&starts, ends, &|_| true).filter(|far| far.value > near.value).or(Some(near))
     }
 
@@ -137,9 +138,15 @@ impl LastPlaces {
 
     /// How far it is from the first of these places to a pose, and by how much one turns on the way, to whichever side \[m, rad\].
     pub(super) fn span(&self, pose: &Pose2) -> [f64; 2] {
-        let poses = || self.places.iter().map(|(pose, _)| pose).chain([pose]);
-        let legs = poses().zip(poses().skip(1)).map(|(from, to)| driven(&from.between(to)));
-        legs.fold([0.0; 2], |sum, leg| [sum[0] + leg[0], sum[1] + leg[1]])
+        let mut sum = [0.0; 2];
+        let mut from: Option<&Pose2> = None;
+        let mut add = |to| {
+            let [way, turn] = from.map_or([0.0; 2], |from| driven(&from.between(to)));
+            (sum[0], sum[1], from) = (sum[0] + way, sum[1] + turn, Some(to));
+        };
+        self.places.iter().for_each(|(place, _)| add(place));
+        add(pose);
+        sum
     }
 
     /// The map of these places.

@@ -18,6 +18,7 @@ use super::last_places::{LastPlaces, MAX_RANGE, errors_of_wheels, fan, is_within
 use super::moving::{Directions, MOVING};
 use crate::error::{Range, SettingError};
 use crate::geometry::{Pose2, driven};
+use crate::matching::ScoredPose;
 use crate::ops;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
@@ -246,9 +247,14 @@ impl Odometer {
         (looked > 0.0).then(|| if compared < IN_COMMON * looked { 0.0 } else { agreed / compared })
     }
 
+    /// The best mode of the scan's score that hill climbs from these starts reach, of those that are off by less than these errors from where odometry leads.
+    fn near(&mut self, starts: &[Pose2], told: &Pose2, errors: [f64; 2], ends: &Scan) -> Option<ScoredPose> {
+        self.places.matched(starts, ends, &|pose| is_within(errors, told, pose))
+    }
+
     /// Whether the last places show what the scan does about where odometry leads, and not clearly more of it at one of these poses.
     fn is_at_home(&mut self, told: &Pose2, others: &[Pose2], ends: &Scan) -> bool {
-        let near = self.places.matched(&[*told], ends, &|pose| is_within(REPAIRED, told, pose));
+        let near = self.near(&[*told], told, REPAIRED, ends);
         near.is_some_and(|near| {
             let (agreement, [disputed, fits]) = (self.places.agreement(&near.pose, ends), AT_HOME);
             let clear = near.value + ODD.gain * ends.hits.len() as f64;
@@ -263,13 +269,13 @@ impl Odometer {
         if ends.hits.len() < ENOUGH && doubt != Doubt::Impossible {
             return None;
         }
-        let elapsed = scan.time - last.time;
-        if doubt == Doubt::Differs && self.is_at_home(told, &last.without_jump(elapsed, told), &ends) {
+        let without_jump = last.without_jump(scan.time - last.time, told);
+        if doubt == Doubt::Differs && self.is_at_home(told, &without_jump, &ends) {
             return None;
         }
         self.places.tighten();
-        let ahead = last.ahead(elapsed);
-        let best = self.places.searched(&[ahead, last.pose, *told].map(fan).concat(), &last.pose, &ends, 0.0)?;
+        let [ahead, turned_ahead, ..] = without_jump;
+        let best = self.places.searched([ahead, last.pose, *told].map(fan).as_flattened(), &last.pose, &ends, 0.0)?;
         let agrees = |with: &Pose2| {
             let ([way, turn], [position, heading, share]) = (driven(&last.pose.between(&best.pose)), AGAIN);
             is_within([position + share * way, heading + share * turn], with, &best.pose)
@@ -282,7 +288,7 @@ impl Odometer {
             Doubt::Still if is_within(REPAIRED, told, &best.pose) => return Some(best.pose),
             // Rooms look alike: of two places where a scan fits about as well, it was taken where odometry leads.
             Doubt::Still => {
-                let near = self.places.matched(&fan(*told), &ends, &|pose| is_within(REPAIRED, told, pose));
+                let near = self.near(&fan(*told), told, REPAIRED, &ends);
                 return Some(near.filter(|near| near.value >= best.value - ODD.gain * count).unwrap_or(best).pose);
             }
             // Errors of the wheels on all of the way are in the map of the places. Of a robot that stands the last place alone is asked.
@@ -290,15 +296,13 @@ impl Odometer {
             Doubt::Stands => (errors_of_wheels([0.0; 2]), Some(STANDING)),
             Doubt::Odd | Doubt::Differs => (REPAIRED, (last.steady && agrees(&ahead)).then_some(ODD)),
         };
-        let is_explained = |pose: &Pose2| is_within(errors, told, pose);
-        if is_explained(&best.pose) {
+        if is_within(errors, told, &best.pose) {
             return None;
         }
-        let there = self.places.matched(&fan(*told), &ends, &is_explained);
+        let there = self.near(&fan(*told), told, errors, &ends);
         let found = self.places.agreement(&best.pose, &ends);
         let gain = there.map_or(f64::INFINITY, |there| (best.value - there.value) / count);
-        let goes_on =
-            last.steady && last.goes_on(elapsed, told).iter().any(|pose| is_within(REPAIRED, pose, &best.pose));
+        let goes_on = last.steady && [ahead, turned_ahead].iter().any(|pose| is_within(REPAIRED, pose, &best.pose));
         let mut is_refuted =
             || there.is_none_or(|there| self.places.agreement(&there.pose, &ends).disputed() > REFUTED);
         let is_proved = CLEAR.is_given(gain, &found)
@@ -332,15 +336,10 @@ impl Last {
         self.pose.compose(&Pose2::new(times * x, times * y, times * theta))
     }
 
-    /// The same, and with the position that is told.
-    fn goes_on(&self, elapsed: f64, told: &Pose2) -> [Pose2; 2] {
-        let ahead = self.ahead(elapsed);
-        [ahead, Pose2 { theta: ahead.theta, ..*told }]
-    }
-
-    /// Where it is without a jump of what is told: it goes on or stays, or its heading does.
+    /// Where it is without a jump of what is told: it goes on, or its heading does; it stays, or its heading does.
     fn without_jump(&self, elapsed: f64, told: &Pose2) -> [Pose2; 4] {
-        let [ahead, turned_ahead] = self.goes_on(elapsed, told);
-        [ahead, turned_ahead, self.pose, Pose2 { theta: self.pose.theta, ..*told }]
+        let turned_as = |pose: Pose2| Pose2 { theta: pose.theta, ..*told };
+        let ahead = self.ahead(elapsed);
+        [ahead, turned_as(ahead), self.pose, turned_as(self.pose)]
     }
 }

@@ -7,6 +7,7 @@ use super::sense::error;
 use fastslam::geometry::Pose2;
 use fastslam::mapper::Remark;
 use fastslam::motion::OdometryModel;
+use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
 use fastslam_lab::experiment::lap::ALPHAS;
 use fastslam_lab::experiment::log::{Example, Recipe};
@@ -91,7 +92,7 @@ fn a_position_that_jumps_is_not_believed_where_a_scan_fits_better_without_it() {
     const SEEDS: u64 = 8;
     let drawn = |seed: u64, k: usize, of: u32| Stream::at(seed, Purpose::TRIAL, k as u32, of).uniform();
     let aside = |way: Pose2, towards: f64| {
-        let (sin, cos) = (2.0 * PI * towards).sin_cos();
+        let (sin, cos) = ops::sin_cos(2.0 * PI * towards);
         Pose2::new(way.x + cos, way.y + sin, way.theta)
     };
     for (kind, most) in [("three times the motion", 0.08), ("carried", 0.15)] {
