@@ -160,7 +160,7 @@ impl<'a> Sequence<'a> {
         };
         let (of_told, of_seen) = (fit(1)?, fit(0)?);
         let ([scale, rate], [told, besides]) = (of_told.value.into(), of_seen.value.into());
-        // Noise of odometry makes the first scale too small, noise of bearings the inverse of the other one too large: what is off is off by both, the same way.
+        // Noise of odometry makes the first scale too small, noise of bearings the inverse of the other one too large: what is wrong is off in both, to the same side.
         let both = |cause, expected, by| of_told.is_off(cause, expected, by) && of_seen.is_off(cause, expected, 0.0);
         let is_scaled = both(0, 1.0, TURN_SCALE) && (scale < 1.0) == (1.0 / told < 1.0);
         (is_scaled || both(1, 0.0, TURN_RATE) && (rate < 0.0) == (besides > 0.0)).then(|| {
