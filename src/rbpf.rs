@@ -336,6 +336,11 @@ impl<M: ConditionalMap, P: Proposal<M>> Rbpf<M, P> {
         })
     }
 
+    /// The particles' maps, by slot: see [`Self::revise`] for what a change of them is.
+    pub(crate) fn maps_mut(&mut self) -> impl Iterator<Item = &mut M> {
+        self.particles.iter_mut().map(|particle| &mut particle.map)
+    }
+
     /// Where the particles' next poses are drawn from.
     pub fn proposal(&self) -> &P {
         &self.proposal

@@ -152,6 +152,7 @@ impl Closings {
         }
         // The robot goes on by a scan meanwhile, and is caught up with.
         let share = (budget / pending).max(2);
+        self.make_room(filter, share);
         let corrections: Vec<_> = core::mem::take(&mut self.corrections).into_iter().map(Mutex::new).collect();
         let corrected = filter.revise(|slot, particle| {
             let mut correction = corrections[slot].lock().expect("no thread panics with it");
@@ -172,6 +173,19 @@ impl Closings {
                 self.bent += 1;
             }
             self.corrections.push(correction);
+        }
+    }
+
+    /// Lets go of the maps of paths whose corrections end with so many more scans each: the new ones need as much room.
+    fn make_room(&mut self, filter: &mut Filter, share: usize) {
+        for (slot, map) in filter.maps_mut().enumerate() {
+            let Some(correction) = &self.corrections[slot] else { continue };
+            if correction.mapped.saturating_add(share) >= self.views.len() {
+                *map = map.blank();
+                for k in 0..self.before.len() {
+                    self.before[k].maps[slot].clone_from(map);
+                }
+            }
         }
     }
 
