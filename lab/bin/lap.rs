@@ -200,5 +200,5 @@ fn paint(setup: &LapSetup, path: &Path) -> Result<()> {
     let height = figure.height(f64::from(WIDTH / DPR)) as u32 * DPR;
     figure.paint(WIDTH, height, f64::from(DPR), Theme::named("light"));
     let canvas = figure.canvas();
-    write_png(path, canvas.size(), ColorType::Rgba, canvas.pixels())
+    write_png(path, canvas.size(), ColorType::Rgba, |file| file.write_all(canvas.pixels()))
 }

@@ -111,15 +111,23 @@ pub fn print_json(value: &impl serde::Serialize) -> Result<()> {
     print(&(serde_json::to_string(value)? + "\n"))
 }
 
-/// Writes a picture.
+/// Writes a picture of this width and height, whose pixels are given row by row from the top, a byte a colour.
 ///
 /// # Errors
 /// Where the file cannot be written.
-pub fn write_png(path: &Path, [width, height]: [u32; 2], colours: ColorType, pixels: &[u8]) -> Result<()> {
+pub fn write_png(
+    path: &Path,
+    [width, height]: [u32; 2],
+    colours: ColorType,
+    pixels: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<()> {
     let write = || -> std::io::Result<()> {
         let mut encoder = png::Encoder::new(BufWriter::new(File::create(path)?), width, height);
         encoder.set_color(colours);
-        Ok(encoder.write_header()?.write_image_data(pixels)?)
+        let mut encoder = encoder.write_header()?;
+        let mut rows = encoder.stream_writer()?;
+        pixels(&mut rows)?;
+        Ok(rows.finish()?)
     };
     write().with_context(in_file(path))
 }

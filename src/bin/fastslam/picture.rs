@@ -1,15 +1,19 @@
 //! Pictures for files, by the painter of the figures.
 
-use anyhow::Result;
+use crate::in_file;
+use anyhow::{Context, Result};
 use fastslam::geometry::Pose2;
-use fastslam::map::grid::MapImage;
+use fastslam::map::grid::{MapDrawing, MapImage};
 use fastslam::map::landmarks::Landmark;
+use fastslam::mapper::CELLS_PER_NDT;
 use fastslam::motion::Motion;
 use fastslam::proposal::Proposal;
 use fastslam_cli::{ColorType, write_png};
 use fastslam_lab::experiment::landmarks::{LandmarkRun, WithLandmarks};
 use fastslam_widgets::paint::{Canvas, Theme};
 use fastslam_widgets::scene::{Point, Rect, Role, Scene, closed, ellipse, plain};
+use std::fs::File;
+use std::io::{BufWriter, Write};
 use std::path::Path;
 
 /// Width of a drawing \[px\].
@@ -77,11 +81,36 @@ where
 
 /// Writes what was painted last as PNG.
 pub fn save(canvas: &Canvas, path: &Path) -> Result<()> {
-    write_png(path, canvas.size(), ColorType::Rgba, canvas.pixels())
+    write_png(path, canvas.size(), ColorType::Rgba, |file| file.write_all(canvas.pixels()))
 }
 
-/// Writes a map with the path on it as PNG, one pixel a cell; where a loop stays open there is a ring of a metre.
-pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], open: &[Pose2], file: &Path) -> Result<()> {
+/// Rows of a map that are drawn at a time.
+const ROWS: u32 = 256;
+
+/// Writes a map as PGM, and with the path on it as PNG, one pixel a cell; where a loop stays open there is a ring of a metre. Returns the strip
+/// that has the origin of the whole.
+pub fn save_map(
+    map: &MapDrawing<'_, CELLS_PER_NDT>,
+    path: &[(f64, Pose2)],
+    open: &[Pose2],
+    [pgm, png]: [&Path; 2],
+) -> Result<MapImage> {
+    let mut grey = BufWriter::new(File::create(pgm).with_context(in_file(pgm))?);
+    grey.write_all(map.pgm_head().as_bytes()).with_context(in_file(pgm))?;
+    let mut last = None;
+    write_png(png, map.size(), ColorType::Rgb, |file| {
+        for strip in map.strips(ROWS) {
+            file.write_all(&coloured(&strip, path, open))?;
+            grey.write_all(&strip.grey)?;
+            last = Some(strip);
+        }
+        grey.flush()
+    })?;
+    last.context("a map has at least one cell")
+}
+
+/// Red, green and blue of a part of a map with what is drawn on it.
+fn coloured(map: &MapImage, path: &[(f64, Pose2)], open: &[Pose2]) -> Vec<u8> {
     /// Red, green, blue of the path, and of what is open.
     const PATH: [u8; 3] = [190, 60, 30];
     const OPEN: [u8; 3] = [220, 0, 160];
@@ -116,5 +145,5 @@ pub fn save_map(map: &MapImage, path: &[(f64, Pose2)], open: &[Pose2], file: &Pa
             }
         }
     }
-    write_png(file, [map.width, map.height], ColorType::Rgb, &pixels)
+    pixels
 }

@@ -109,26 +109,8 @@ impl MapImage {
         path: &[(f64, Pose2)],
         settings: &MapImageSettings,
     ) -> Result<Self, SettingError> {
-        settings.validate()?;
-        let seen = seen(map);
-        let radius = settings.footprint_radius / map.cell_size();
-        let robot = if radius > 0.0 { places(path, map.cell_size(), seen) } else { Vec::new() };
-        let cells = robot.iter().fold(seen, |cells, at| around(cells, *at, radius));
-        let grey = settings.grey();
-        let rows = (cells.j0..cells.j1).rev();
-        let [width, height] = [cells.width(), cells.height()].map(|side| side as u32);
-        let mut image = Self {
-            width,
-            height,
-            origin: [cells.i0, cells.j0].map(|k| f64::from(k) * map.cell_size()),
-            cell_size: map.cell_size(),
-            grey: rows
-                .flat_map(|j| (cells.i0..cells.i1).map(move |i| (i, j)))
-                .map(|(i, j)| grey(map.log_odds(i, j)))
-                .collect(),
-        };
-        robot.into_iter().for_each(|[x, y]| image.clear([x - f64::from(cells.i0), y - f64::from(cells.j0)], radius));
-        Ok(image)
+        let drawing = MapDrawing::new(map, path, settings)?;
+        Ok(drawing.strip(drawing.cells))
     }
 
     /// Makes the cells free whose centres are in a circle, both in cells from the lower left corner of the picture.
@@ -149,7 +131,7 @@ impl MapImage {
 
     /// As a file in the format PGM.
     pub fn pgm(&self) -> Vec<u8> {
-        let mut file = format!("P5\n{} {}\n255\n", self.width, self.height).into_bytes();
+        let mut file = pgm_head([self.width, self.height]).into_bytes();
         file.extend(&self.grey);
         file
     }
@@ -163,6 +145,95 @@ impl MapImage {
             "image: \"{image}\"\nmode: trinary\nresolution: {}\norigin: [{x}, {y}, 0.0]\nnegate: 0\noccupied_thresh: {occupied}\nfree_thresh: {free}\n",
             self.cell_size
         )
+    }
+}
+
+/// What stands before the greys of a picture of this width and height in the format PGM.
+fn pgm_head([width, height]: [u32; 2]) -> String {
+    format!("P5\n{width} {height}\n255\n")
+}
+
+/// A [`MapImage`] to be, drawn in strips: of a large map the whole picture would take as much memory as the map.
+///
+/// ```
+/// use fastslam::map::grid::{Grid, MapDrawing, MapImage, MapImageSettings};
+/// use fastslam::{geometry::Pose2, map::ConditionalMap, sensor::BeamSensor};
+/// # let model = fastslam::mapper::LaserMapperSettings::default().grid();
+/// let mut map = Grid::<4>::new(model);
+/// map.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[5.0; 90]), &());
+/// let settings = MapImageSettings::default();
+/// let drawing = MapDrawing::new(&map, &[], &settings)?;
+/// let greys: Vec<u8> = drawing.strips(64).flat_map(|strip| strip.grey).collect();
+/// assert_eq!(greys, MapImage::of(&map, &[], &settings)?.grey);
+/// # Ok::<(), fastslam::error::SettingError>(())
+/// ```
+#[derive(Debug)]
+pub struct MapDrawing<'a, const CELLS_PER_NDT: usize> {
+    map: &'a Grid<CELLS_PER_NDT>,
+    settings: MapImageSettings,
+    cells: CellRect,
+    /// Where the robot's circle is drawn \[cells\].
+    robot: Vec<[f64; 2]>,
+    /// Of that \[cells\].
+    radius: f64,
+}
+
+impl<'a, const CELLS_PER_NDT: usize> MapDrawing<'a, CELLS_PER_NDT> {
+    /// The picture that [`MapImage::of`] is.
+    ///
+    /// # Errors
+    /// Those of [`MapImage::of`].
+    pub fn new(
+        map: &'a Grid<CELLS_PER_NDT>,
+        path: &[(f64, Pose2)],
+        settings: &MapImageSettings,
+    ) -> Result<Self, SettingError> {
+        settings.validate()?;
+        let seen = seen(map);
+        let radius = settings.footprint_radius / map.cell_size();
+        let robot = if radius > 0.0 { places(path, map.cell_size(), seen) } else { Vec::new() };
+        let cells = robot.iter().fold(seen, |cells, at| around(cells, *at, radius));
+        Ok(Self { map, settings: *settings, cells, robot, radius })
+    }
+
+    /// Cells in a row, and rows.
+    pub fn size(&self) -> [u32; 2] {
+        [self.cells.width(), self.cells.height()].map(|side| side as u32)
+    }
+
+    /// What stands before the greys of all strips in a file in the format PGM.
+    pub fn pgm_head(&self) -> String {
+        pgm_head(self.size())
+    }
+
+    /// The picture from the top, so many rows at a time, at least one; each strip a picture with an origin of its own, so that of the last is that of the
+    /// whole.
+    pub fn strips(&self, rows: u32) -> impl Iterator<Item = MapImage> {
+        let (all, rows) = (self.cells, rows.max(1));
+        (0..self.size()[1]).step_by(rows as usize).map(move |row| {
+            let j1 = all.j1 - row as i32;
+            self.strip(CellRect { j0: (j1 - rows as i32).max(all.j0), j1, ..all })
+        })
+    }
+
+    fn strip(&self, cells: CellRect) -> MapImage {
+        let [width, height] = [cells.width(), cells.height()];
+        let (grey, cell_size) = (self.settings.grey(), self.map.cell_size());
+        let mut greys = Vec::with_capacity(width * height);
+        for j in (cells.j0..cells.j1).rev() {
+            greys.extend((cells.i0..cells.i1).map(|i| grey(self.map.log_odds(i, j))));
+        }
+        let mut image = MapImage {
+            width: width as u32,
+            height: height as u32,
+            origin: [cells.i0, cells.j0].map(|k| f64::from(k) * cell_size),
+            cell_size,
+            grey: greys,
+        };
+        for [x, y] in &self.robot {
+            image.clear([x - f64::from(cells.i0), y - f64::from(cells.j0)], self.radius);
+        }
+        image
     }
 }
 

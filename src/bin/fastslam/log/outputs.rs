@@ -4,7 +4,7 @@ use super::Arguments;
 use crate::{in_file, picture};
 use anyhow::{Context, Result};
 use fastslam::geometry::Pose2;
-use fastslam::map::grid::{MapImage, MapImageSettings};
+use fastslam::map::grid::{MapDrawing, MapImageSettings};
 use fastslam::mapper::LaserMapper;
 use fastslam_log::{write_path, write_tum};
 use std::ffi::{OsStr, OsString};
@@ -163,11 +163,11 @@ impl Outputs {
         let map = self.map.take();
         self.write_path(path)?;
         if let Some(MapOutputs { png, pgm, yaml, image }) = map {
-            let map = MapImage::of(mapper.map(), path, rules)?;
+            let map = MapDrawing::new(mapper.map(), path, rules)?;
             let open = mapper.open_loops().filter_map(|one| mapper.at_step(one.to));
-            picture::save_map(&map, path, &open.map(|(_, pose)| pose).collect::<Vec<_>>(), png.path())?;
-            std::fs::write(pgm.path(), map.pgm()).with_context(in_file(pgm.path()))?;
-            std::fs::write(yaml.path(), map.yaml(&image)).with_context(in_file(yaml.path()))?;
+            let open: Vec<_> = open.map(|(_, pose)| pose).collect();
+            let last = picture::save_map(&map, path, &open, [pgm.path(), png.path()])?;
+            std::fs::write(yaml.path(), last.yaml(&image)).with_context(in_file(yaml.path()))?;
             [png, pgm, yaml].into_iter().try_for_each(Pending::put)?;
         }
         Ok(())

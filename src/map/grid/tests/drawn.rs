@@ -44,6 +44,25 @@ fn a_map_that_is_read_from_its_own_picture_is_written_as_the_same_picture() {
     }
 }
 
+/// However many rows a strip has, and where the robot's circle lies across several of them.
+#[test]
+fn the_strips_of_a_picture_are_the_picture() {
+    let (grid, settings) = (room(), MapImageSettings { footprint_radius: 0.7, ..MapImageSettings::default() });
+    let path = [(0.0, Pose2::default()), (1.0, Pose2::new(0.4, 0.6, 0.0))];
+    let whole = MapImage::of(&grid, &path, &settings).unwrap();
+    let drawing = MapDrawing::new(&grid, &path, &settings).unwrap();
+    assert_eq!(drawing.size(), [whole.width, whole.height]);
+    assert!(whole.pgm().starts_with(drawing.pgm_head().as_bytes()));
+    for rows in [0, 1, 7, whole.height, 1000] {
+        let strips: Vec<_> = drawing.strips(rows).collect();
+        assert_eq!(strips.len() as u32, whole.height.div_ceil(rows.max(1)), "{rows}");
+        assert!(strips.iter().all(|strip| strip.width == whole.width && strip.height <= rows.max(1)));
+        assert_eq!(strips.last().unwrap().origin, whole.origin, "{rows}");
+        let greys: Vec<u8> = strips.into_iter().flat_map(|strip| strip.grey).collect();
+        assert!(greys == whole.grey, "{rows}");
+    }
+}
+
 /// By map_server's rule: black, white, and greys of which the share of black is 0.2, 0.4 and 0.6, read by thresholds of 0.3 and 0.5.
 #[test]
 fn greys_are_read_as_mode_negation_and_thresholds_say() {
