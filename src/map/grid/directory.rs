@@ -71,6 +71,13 @@ impl<const CELLS_PER_NDT: usize> Directory<CELLS_PER_NDT> {
         self.tiles.get(self.index(ti, tj)?)?.as_deref()
     }
 
+    /// The place of a tile; `None` where the directory does not reach.
+    #[inline]
+    pub(super) fn slot(&mut self, ti: i32, tj: i32) -> Option<&mut Option<Arc<Tile<CELLS_PER_NDT>>>> {
+        let index = self.index(ti, tj)?;
+        self.tiles.get_mut(index)
+    }
+
     /// The directory grown so as to cover `needed` (in tiles) as well.
     pub(super) fn grown(&self, needed: CellRect) -> Self {
         let old = self.rect;

@@ -2,7 +2,8 @@
 //!
 //! A [`Grid`] holds one shared pointer to a directory, and the directory one to each tile of 8 × 8 NDT cells. Cloning a grid copies
 //! one pointer. The first write afterwards copies the directory, which is a pointer for each tile of the map's rectangle, and each
-//! tile when it is first written to. Of what the map holds, a scan therefore copies only the tiles it changes.
+//! tile when it is first written to. Of what the map holds, a scan therefore copies only the tiles it changes. Tiles that beams have passed all
+//! over, so often that none of their cells can become freer, are one and the same in all maps that come from one.
 //!
 //! Two layers lie over each other:
 //! - *occupancy*: each cell keeps its log-odds of being occupied, updated by the inverse sensor model (*Probabilistic Robotics*, table 9.1);
@@ -61,6 +62,9 @@ pub struct Grid<const CELLS_PER_NDT: usize = 1> {
     /// 1 / ndt_size \[1/m\].
     per_ndt: f64,
     directory: Arc<Directory<CELLS_PER_NDT>>,
+    /// What every tile that cannot become freer is replaced by, in this grid and in all that come from it: where beams go to and fro, that is every
+    /// fourth tile.
+    clear: Arc<Tile<CELLS_PER_NDT>>,
     /// Scans mapped so far.
     scans: u32,
     /// The directory as it was after so many scans, oldest first: what [`Grid::past`] is now, and what it will be.
@@ -78,12 +82,14 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     pub fn new(model: GridModel) -> Self {
         let ndt_size = CELLS_PER_NDT as f64 * model.cell_size;
         let directory = Directory { rect: CellRect::default(), tiles: Vec::new() }.into();
+        let [free, _] = model.log_odds_bounds.map(tile::units);
         Self {
             model,
             per_cell: 1.0 / model.cell_size,
             ndt_size,
             per_ndt: 1.0 / ndt_size,
             directory,
+            clear: Tile::clear(free).into(),
             scans: 0,
             past: Vec::new(),
         }
@@ -91,7 +97,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
 
     /// An unknown world, with the settings of this one.
     pub(crate) fn blank(&self) -> Self {
-        Self::new(self.model)
+        Self { clear: Arc::clone(&self.clear), ..Self::new(self.model) }
     }
 
     /// How it learns.
@@ -111,12 +117,16 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
     /// Costs pointers only. What is kept for it are the tiles that have been written to since, as they were.
     pub fn past(&self) -> Self {
         let directory = self.past.first().map_or(&self.directory, |(_, directory)| directory);
-        Self { directory: Arc::clone(directory), past: Vec::new(), ..*self }
+        self.with_directory(directory)
     }
 
     /// The map as it is, without what is kept for [`Self::past`].
     pub(crate) fn present(&self) -> Self {
-        Self { directory: Arc::clone(&self.directory), past: Vec::new(), ..*self }
+        self.with_directory(&self.directory)
+    }
+
+    fn with_directory(&self, directory: &Arc<Directory<CELLS_PER_NDT>>) -> Self {
+        Self { directory: Arc::clone(directory), clear: Arc::clone(&self.clear), past: Vec::new(), ..*self }
     }
 
     /// From now on, [`Self::past`] is never older than what is mapped by now: for scans that were taken at known poses.
@@ -225,28 +235,50 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
         let directories: Vec<_> = grids.iter().copied().flat_map(Self::directories).collect();
         let directories = distinct(&directories, |directory| Arc::as_ptr(directory).addr() as u64);
         let pointers: usize = directories.iter().map(|d| d.tiles.len() * POINTER).sum();
-        let tiles: Vec<_> = directories.iter().flat_map(|d| d.tiles.iter().flatten()).collect();
-        let tiles = distinct(&tiles, |tile| Arc::as_ptr(tile).addr() as u64);
+        let tiles = Self::tiles_of(&directories);
         let unique = pointers + tiles.iter().map(|tile| tile.bytes()).sum::<usize>();
         Footprint { unique: unique as u64, dense: dense as u64 }
     }
 
-    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every distribution, bit for bit. A tile that
-    /// several of them share is read once, so that a family of maps costs what its [`Self::footprint`] is and not so many copies.
+    /// The tiles of directories, each once.
+    #[inline(never)]
+    fn tiles_of<'a>(directories: &[&'a Arc<Directory<CELLS_PER_NDT>>]) -> Vec<&'a Arc<Tile<CELLS_PER_NDT>>> {
+        // A directory mostly differs from the one before in few tiles. All tiles of all of them in one list would be larger than the maps.
+        let (mut tiles, mut before) = (Vec::new(), &[][..]);
+        for directory in directories {
+            for (k, tile) in directory.tiles.iter().enumerate() {
+                if let Some(tile) = tile
+                    && !is_at(before, k, tile)
+                {
+                    tiles.push(tile);
+                }
+            }
+            before = &directory.tiles;
+        }
+        distinct(&tiles, |tile| Arc::as_ptr(tile).addr() as u64)
+    }
+
+    /// Puts all that these grids hold into a fingerprint: the log-odds of every cell, and every distribution, bit for bit. A tile that a grid shares with the
+    /// one before is not read again, so that a family of maps costs little more than what its [`Self::footprint`] is.
     pub fn hash_all<'a, H: Hasher + Default>(grids: impl IntoIterator<Item = &'a Self>, hasher: &mut H) {
-        let mut known = std::collections::BTreeMap::new();
+        let (mut before, mut hashed) = (&[][..], Vec::new());
         for Directory { rect, tiles } in grids.into_iter().flat_map(Self::directories).map(|directory| &**directory) {
             [rect.i0, rect.j0, rect.i1, rect.j1].into_iter().for_each(|k| hasher.write(&k.to_le_bytes()));
-            for tile in tiles {
-                let value = |tile: &Arc<Tile<CELLS_PER_NDT>>| {
-                    *known.entry(Arc::as_ptr(tile).addr()).or_insert_with(|| {
+            hashed.resize(tiles.len(), 0);
+            for (k, tile) in tiles.iter().enumerate() {
+                let value = match tile {
+                    None => 0,
+                    Some(tile) if is_at(before, k, tile) => hashed[k],
+                    Some(tile) => {
                         let mut hasher = H::default();
                         tile.hash_into(&mut hasher);
                         hasher.finish()
-                    })
+                    }
                 };
-                hasher.write(&tile.as_ref().map_or(0, value).to_le_bytes());
+                hashed[k] = value;
+                hasher.write(&u64::to_le_bytes(value));
             }
+            before = tiles;
         }
     }
 
@@ -257,9 +289,8 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
 
     /// A tile, made its own and allocated if need be; `None` where the directory does not reach.
     fn tile_mut(&mut self, ti: i32, tj: i32) -> Option<&mut Tile<CELLS_PER_NDT>> {
-        let directory = Arc::make_mut(&mut self.directory);
-        let index = directory.index(ti, tj)?;
-        Some(Arc::make_mut(directory.tiles[index].get_or_insert_default()))
+        let slot = Arc::make_mut(&mut self.directory).slot(ti, tj)?;
+        Some(Arc::make_mut(slot.get_or_insert_default()))
     }
 }
 
@@ -315,13 +346,18 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             if !changes {
                 continue;
             }
-            let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
+            let slot = Arc::make_mut(&mut self.directory).slot(ti, tj);
+            let slot = slot.expect("the directory was grown to cover the scan");
+            let tile = Arc::make_mut(slot.get_or_insert_default());
             for (cells, marks) in tile.rows_mut().zip(marks()) {
                 for (cell, mark) in cells.iter_mut().zip(marks) {
                     let passed = if *mark == ray_trace::PASSED { pass } else { 0 };
                     let add = if *mark == ray_trace::HIT { hit } else { passed };
                     *cell = cell.saturating_add(add).max(free).min(occupied);
                 }
+            }
+            if tile.is_clear(free) {
+                *slot = Some(Arc::clone(&self.clear));
             }
         }
     }
@@ -350,6 +386,11 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             }
         }
     }
+}
+
+/// Whether this tile is at this place.
+fn is_at<T>(tiles: &[Option<Arc<T>>], place: usize, tile: &Arc<T>) -> bool {
+    matches!(tiles.get(place), Some(Some(known)) if Arc::ptr_eq(known, tile))
 }
 
 /// 1.5 · 2⁵²: adding it leaves no bits for a fraction, and the integer in the lowest bits.

@@ -1,6 +1,7 @@
 //! Grids as the tiles that they share.
 
-use super::{CellRect, Directory, Grid, GridModel, ray_trace, tile::SavedTile};
+use super::tile::{self, SavedTile, Tile};
+use super::{CellRect, Directory, Grid, GridModel, ray_trace};
 use crate::error::Range;
 use crate::save::{self, RestoreError, SaveShared};
 use serde::{Deserialize, Serialize};
@@ -71,15 +72,32 @@ impl<const CELLS_PER_NDT: usize> SaveShared for Grid<CELLS_PER_NDT> {
         });
         let directories = directories.collect::<Result<Vec<_>, RestoreError>>()?;
         let directory = |index| save::at("maps.directories", &directories, index).cloned();
-        let grid = |SavedGrid { model, directory: present, scans, past }: SavedGrid| {
+        let mut restored: Vec<Self> = Vec::with_capacity(grids.len());
+        for SavedGrid { model, directory: present, scans, past } in grids {
             model.validate()?;
             SCANS.check("maps.scans", f64::from(scans))?;
             let ages: Vec<u32> = past.iter().map(|(scans, _)| *scans).chain([scans]).collect();
             save::holds(ages.is_sorted(), "maps.past", "in order, and before the present")?;
             let past = past.into_iter().map(|(scans, index)| Ok((scans, directory(index)?)));
             let past = past.collect::<Result<_, RestoreError>>()?;
-            Ok(Self { directory: directory(present)?, scans, past, ..Self::new(model) })
-        };
-        grids.into_iter().map(grid).collect()
+            let blank = match restored.last() {
+                Some(last) if last.model == model => last.blank(),
+                _ => Self::among(&tiles, model),
+            };
+            restored.push(Self { directory: directory(present)?, scans, past, ..blank });
+        }
+        Ok(restored)
+    }
+}
+
+impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
+    /// An unknown world whose clear tile is that of these tiles, if there is one.
+    fn among(tiles: &[Arc<Tile<CELLS_PER_NDT>>], model: GridModel) -> Self {
+        let [free, _] = model.log_odds_bounds.map(tile::units);
+        let mut grid = Self::new(model);
+        if let Some(clear) = tiles.iter().find(|tile| tile.is_clear(free)) {
+            grid.clear = Arc::clone(clear);
+        }
+        grid
     }
 }

@@ -104,6 +104,19 @@ impl<const CELLS_PER_NDT: usize> Default for Tile<CELLS_PER_NDT> {
 }
 
 impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
+    /// One whose cells are all as free as they can be, far from where any beam ended.
+    pub fn clear(free: i8) -> Self {
+        let mut tile = Self::default();
+        tile.log_odds.as_flattened_mut().as_flattened_mut().as_flattened_mut().fill(free);
+        tile
+    }
+
+    /// Whether it is [that one](Self::clear).
+    pub fn is_clear(&self, free: i8) -> bool {
+        let cells = self.log_odds.as_flattened().as_flattened().as_flattened();
+        cells.iter().all(|units| *units == free) && self.places.iter().all(|place| *place == 0)
+    }
+
     /// The same content in a dense array: for each NDT cell its occupancy cells and a distribution.
     pub const DENSE_BYTES: usize = NDT_CELLS * (CELLS_PER_NDT * CELLS_PER_NDT + size_of::<NdtCell>());
 
@@ -172,6 +185,10 @@ impl<const CELLS_PER_NDT: usize> Tile<CELLS_PER_NDT> {
     pub fn add_hit(&mut self, local: usize, offset: [f32; 2], ndt_std: f32, stretch: f32) -> bool {
         let first = self.distance(local) > 0;
         if first {
+            // By a few: of most tiles few NDT cells are hit.
+            if self.ndt_cells.len() == self.ndt_cells.capacity() {
+                self.ndt_cells.reserve_exact(2);
+            }
             self.ndt_cells.push(NdtCell::default());
             self.places[local] = self.ndt_cells.len() as u8;
         }
