@@ -222,6 +222,7 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         scans_per_s: progress.scans as f64 / elapsed.as_secs_f64().max(1e-3),
         longest_scan_s: longest.as_secs_f64(),
         ms_per_scan_particle: 1e3 * cpu.as_secs_f64() / f64::from(used.max(1)) / settings.particles as f64,
+        peak_process_bytes: peak_process_bytes(),
         peak_map_bytes: peak.unique,
         dense_map_bytes: peak.dense,
         kept_map_bytes: kept,
@@ -281,6 +282,13 @@ pub fn run(arguments: &Arguments) -> Result<()> {
         )));
     }
     doubt.map_or(Ok(()), |doubt| Err(Doubtful(format!("{name}: {doubt}")).into()))
+}
+
+/// The most that this process had of memory so far; `None` where the system is not Linux.
+fn peak_process_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmHWM:")?.trim().strip_suffix(" kB"))?;
+    Some(1024 * kilobytes.parse::<u64>().ok()?)
 }
 
 /// A log was mapped, and its map is not to be trusted: it contradicts itself, is empty, or scans contradict the log as a whole. Exit status 3.

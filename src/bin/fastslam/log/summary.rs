@@ -20,6 +20,8 @@ pub(super) struct Output {
     pub longest_scan_s: f64,
     /// CPU time of the whole process, from reading the log to writing the results, for each scan taken and particle \[ms\].
     pub ms_per_scan_particle: f64,
+    /// What the whole process took of memory at most, from reading the log to writing the results; null where the system does not tell.
+    pub peak_process_bytes: Option<u64>,
     /// Of the particles' maps, where one looked.
     pub peak_map_bytes: u64,
     /// At the same time, if every map were kept whole and apart.
@@ -129,6 +131,9 @@ pub(super) fn summary(settings: &LaserMapperSettings, log: &LaserLog, output: &O
         output.path_bytes as f64 / 1e6,
         100.0 * output.resampled_fraction,
     );
+    if let Some(bytes) = output.peak_process_bytes {
+        _ = writeln!(text, "memory of the whole process       {:8.1} MB at its peak", bytes as f64 / 1e6);
+    }
     _ = writeln!(
         text,
         "wheels, as learnt: heading drifts by {:.1}° a metre, ± {:.1}°",

@@ -44,12 +44,12 @@ fn refusal(arguments: &str) -> String {
 
 /// Where a log of shared/data is, which may not be shipped. Where one of its files is absent `npm test` counts the test as skipped, by
 /// the line that this prints.
-fn recorded(name: &str, files: [&str; 2]) -> Option<String> {
+fn recorded<const N: usize>(name: &str, files: [&str; N]) -> Option<String> {
     shared("data", name, files)
 }
 
 /// The same of one of the folders of shared.
-fn shared(of: &str, name: &str, files: [&str; 2]) -> Option<String> {
+fn shared<const N: usize>(of: &str, name: &str, files: [&str; N]) -> Option<String> {
     let prefix = format!("{}/../../../../shared/{of}/{name}", env!("CARGO_MANIFEST_DIR"));
     match files.iter().find(|file| !std::path::Path::new(&format!("{prefix}{file}")).exists()) {
         Some(file) => println!("skipped: {name}{file} is not in ../shared/{of}"),

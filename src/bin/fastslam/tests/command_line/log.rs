@@ -17,6 +17,8 @@ fn a_log_is_mapped_and_its_path_map_and_errors_are_written() {
         "{run}"
     );
     assert!(run["peak_map_bytes"].as_f64().unwrap() < run["dense_map_bytes"].as_f64().unwrap());
+    #[cfg(target_os = "linux")]
+    assert!(run["peak_process_bytes"].as_u64().unwrap() > run["peak_map_bytes"].as_u64().unwrap());
     let longest = run["longest_scan_s"].as_f64().unwrap();
     let mean = run["elapsed_s"].as_f64().unwrap() / run["scans"].as_f64().unwrap();
     assert!((mean..=run["elapsed_s"].as_f64().unwrap()).contains(&longest), "{longest} s, {mean} s in the mean");
