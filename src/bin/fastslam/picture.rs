@@ -3,9 +3,8 @@
 use crate::in_file;
 use anyhow::{Context, Result};
 use fastslam::geometry::Pose2;
-use fastslam::map::grid::{MapDrawing, MapImage};
+use fastslam::map::grid::MapImage;
 use fastslam::map::landmarks::Landmark;
-use fastslam::mapper::CELLS_PER_NDT;
 use fastslam::motion::Motion;
 use fastslam::proposal::Proposal;
 use fastslam_cli::{ColorType, write_png};
@@ -85,28 +84,27 @@ pub fn save(canvas: &Canvas, path: &Path) -> Result<()> {
 }
 
 /// Rows of a map that are drawn at a time.
-const ROWS: u32 = 256;
+pub const ROWS: u32 = 256;
 
-/// Writes a map as PGM, and with the path on it as PNG, one pixel a cell; where a loop stays open there is a ring of a metre. Returns the strip
-/// that has the origin of the whole.
+/// Writes a map, of which the whole has no greys yet, as PGM, and with the path on it as PNG, one pixel a cell; where a loop stays open there is a ring of a
+/// metre.
 pub fn save_map(
-    map: &MapDrawing<'_, CELLS_PER_NDT>,
+    whole: &MapImage,
+    strips: impl Iterator<Item = MapImage>,
     path: &[(f64, Pose2)],
     open: &[Pose2],
     [pgm, png]: [&Path; 2],
-) -> Result<MapImage> {
+) -> Result<()> {
     let mut grey = BufWriter::new(File::create(pgm).with_context(in_file(pgm))?);
-    grey.write_all(map.pgm_head().as_bytes()).with_context(in_file(pgm))?;
-    let mut last = None;
-    write_png(png, map.size(), ColorType::Rgb, |file| {
-        for strip in map.strips(ROWS) {
+    let mut written = grey.write_all(&whole.pgm());
+    write_png(png, [whole.width, whole.height], ColorType::Rgb, |file| {
+        for strip in strips {
             file.write_all(&coloured(&strip, path, open))?;
-            grey.write_all(&strip.grey)?;
-            last = Some(strip);
+            written = std::mem::replace(&mut written, Ok(())).and_then(|()| grey.write_all(&strip.grey));
         }
-        grey.flush()
+        Ok(())
     })?;
-    last.context("a map has at least one cell")
+    written.and_then(|()| grey.flush()).with_context(in_file(pgm))
 }
 
 /// Red, green and blue of a part of a map with what is drawn on it.

@@ -109,8 +109,53 @@ impl MapImage {
         path: &[(f64, Pose2)],
         settings: &MapImageSettings,
     ) -> Result<Self, SettingError> {
-        let drawing = MapDrawing::new(map, path, settings)?;
+        let drawing = Drawing::new(map, path, settings)?;
         Ok(drawing.strip(drawing.cells))
+    }
+
+    /// The same in strips of so many rows, at least one, from the top: of a large map the whole picture would take as much memory as the map. First the whole
+    /// without its greys, whose [`Self::pgm`] is what stands before them in a file.
+    ///
+    /// ```
+    /// use fastslam::map::grid::{Grid, MapImage, MapImageSettings};
+    /// use fastslam::{geometry::Pose2, map::ConditionalMap, sensor::BeamSensor};
+    /// # let model = fastslam::mapper::LaserMapperSettings::default().grid();
+    /// let mut map = Grid::<4>::new(model);
+    /// map.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[5.0; 90]), &());
+    /// let settings = MapImageSettings::default();
+    /// let (whole, strips) = MapImage::in_strips(&map, &[], &settings, 64)?;
+    /// let mut file = whole.pgm();
+    /// strips.for_each(|strip| file.extend(strip.grey));
+    /// assert_eq!(file, MapImage::of(&map, &[], &settings)?.pgm());
+    /// # Ok::<(), fastslam::error::SettingError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Self::of`].
+    pub fn in_strips<'a, const CELLS_PER_NDT: usize>(
+        map: &'a Grid<CELLS_PER_NDT>,
+        path: &[(f64, Pose2)],
+        settings: &MapImageSettings,
+        rows: u32,
+    ) -> Result<(Self, impl Iterator<Item = Self> + use<'a, CELLS_PER_NDT>), SettingError> {
+        let drawing = Drawing::new(map, path, settings)?;
+        let (all, rows) = (drawing.cells, rows.max(1) as usize);
+        let strips = (all.j0..all.j1).rev().step_by(rows).map(move |top| {
+            let j0 = top.saturating_add(1).saturating_sub_unsigned(rows as u32).max(all.j0);
+            drawing.strip(CellRect { j0, j1: top + 1, ..all })
+        });
+        Ok((Self::without_greys(all, map.cell_size()), strips))
+    }
+
+    /// One of these cells, to be drawn.
+    fn without_greys(cells: CellRect, cell_size: f64) -> Self {
+        Self {
+            width: cells.width() as u32,
+            height: cells.height() as u32,
+            origin: [cells.i0, cells.j0].map(|k| f64::from(k) * cell_size),
+            cell_size,
+            grey: Vec::new(),
+        }
     }
 
     /// Makes the cells free whose centres are in a circle, both in cells from the lower left corner of the picture.
@@ -131,7 +176,7 @@ impl MapImage {
 
     /// As a file in the format PGM.
     pub fn pgm(&self) -> Vec<u8> {
-        let mut file = pgm_head([self.width, self.height]).into_bytes();
+        let mut file = format!("P5\n{} {}\n255\n", self.width, self.height).into_bytes();
         file.extend(&self.grey);
         file
     }
@@ -148,27 +193,8 @@ impl MapImage {
     }
 }
 
-/// What stands before the greys of a picture of this width and height in the format PGM.
-fn pgm_head([width, height]: [u32; 2]) -> String {
-    format!("P5\n{width} {height}\n255\n")
-}
-
-/// A [`MapImage`] to be, drawn in strips: of a large map the whole picture would take as much memory as the map.
-///
-/// ```
-/// use fastslam::map::grid::{Grid, MapDrawing, MapImage, MapImageSettings};
-/// use fastslam::{geometry::Pose2, map::ConditionalMap, sensor::BeamSensor};
-/// # let model = fastslam::mapper::LaserMapperSettings::default().grid();
-/// let mut map = Grid::<4>::new(model);
-/// map.assimilate(&Pose2::default(), &BeamSensor::panorama(90, 8.0, 0.0).scan(&[5.0; 90]), &());
-/// let settings = MapImageSettings::default();
-/// let drawing = MapDrawing::new(&map, &[], &settings)?;
-/// let greys: Vec<u8> = drawing.strips(64).flat_map(|strip| strip.grey).collect();
-/// assert_eq!(greys, MapImage::of(&map, &[], &settings)?.grey);
-/// # Ok::<(), fastslam::error::SettingError>(())
-/// ```
-#[derive(Debug)]
-pub struct MapDrawing<'a, const CELLS_PER_NDT: usize> {
+/// A picture to be, of which any part can be drawn.
+struct Drawing<'a, const CELLS_PER_NDT: usize> {
     map: &'a Grid<CELLS_PER_NDT>,
     settings: MapImageSettings,
     cells: CellRect,
@@ -178,12 +204,8 @@ pub struct MapDrawing<'a, const CELLS_PER_NDT: usize> {
     radius: f64,
 }
 
-impl<'a, const CELLS_PER_NDT: usize> MapDrawing<'a, CELLS_PER_NDT> {
-    /// The picture that [`MapImage::of`] is.
-    ///
-    /// # Errors
-    /// Those of [`MapImage::of`].
-    pub fn new(
+impl<'a, const CELLS_PER_NDT: usize> Drawing<'a, CELLS_PER_NDT> {
+    fn new(
         map: &'a Grid<CELLS_PER_NDT>,
         path: &[(f64, Pose2)],
         settings: &MapImageSettings,
@@ -196,40 +218,14 @@ impl<'a, const CELLS_PER_NDT: usize> MapDrawing<'a, CELLS_PER_NDT> {
         Ok(Self { map, settings: *settings, cells, robot, radius })
     }
 
-    /// Cells in a row, and rows.
-    pub fn size(&self) -> [u32; 2] {
-        [self.cells.width(), self.cells.height()].map(|side| side as u32)
-    }
-
-    /// What stands before the greys of all strips in a file in the format PGM.
-    pub fn pgm_head(&self) -> String {
-        pgm_head(self.size())
-    }
-
-    /// The picture from the top, so many rows at a time, at least one; each strip a picture with an origin of its own, so that of the last is that of the
-    /// whole.
-    pub fn strips(&self, rows: u32) -> impl Iterator<Item = MapImage> {
-        let (all, rows) = (self.cells, rows.max(1));
-        (0..self.size()[1]).step_by(rows as usize).map(move |row| {
-            let j1 = all.j1 - row as i32;
-            self.strip(CellRect { j0: (j1 - rows as i32).max(all.j0), j1, ..all })
-        })
-    }
-
+    /// These cells of it.
     fn strip(&self, cells: CellRect) -> MapImage {
-        let [width, height] = [cells.width(), cells.height()];
-        let (grey, cell_size) = (self.settings.grey(), self.map.cell_size());
-        let mut greys = Vec::with_capacity(width * height);
+        let grey = self.settings.grey();
+        let mut image = MapImage::without_greys(cells, self.map.cell_size());
+        image.grey.reserve_exact(cells.width() * cells.height());
         for j in (cells.j0..cells.j1).rev() {
-            greys.extend((cells.i0..cells.i1).map(|i| grey(self.map.log_odds(i, j))));
+            image.grey.extend((cells.i0..cells.i1).map(|i| grey(self.map.log_odds(i, j))));
         }
-        let mut image = MapImage {
-            width: width as u32,
-            height: height as u32,
-            origin: [cells.i0, cells.j0].map(|k| f64::from(k) * cell_size),
-            cell_size,
-            grey: greys,
-        };
         for [x, y] in &self.robot {
             image.clear([x - f64::from(cells.i0), y - f64::from(cells.j0)], self.radius);
         }

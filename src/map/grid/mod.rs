@@ -32,7 +32,7 @@ use tile::{NdtCell, TILE};
 
 pub use directory::CellRect;
 pub use drawn::{GreyMode, MapReading, PgmError};
-pub use image::{MapDrawing, MapImage, MapImageSettings};
+pub use image::{MapImage, MapImageSettings};
 pub use model::GridModel;
 #[cfg(feature = "serde")]
 pub use saved::SavedGrids;

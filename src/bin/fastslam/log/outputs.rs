@@ -4,7 +4,7 @@ use super::Arguments;
 use crate::{in_file, picture};
 use anyhow::{Context, Result};
 use fastslam::geometry::Pose2;
-use fastslam::map::grid::{MapDrawing, MapImageSettings};
+use fastslam::map::grid::{MapImage, MapImageSettings};
 use fastslam::mapper::LaserMapper;
 use fastslam_log::{write_path, write_tum};
 use std::ffi::{OsStr, OsString};
@@ -163,11 +163,11 @@ impl Outputs {
         let map = self.map.take();
         self.write_path(path)?;
         if let Some(MapOutputs { png, pgm, yaml, image }) = map {
-            let map = MapDrawing::new(mapper.map(), path, rules)?;
+            let (whole, strips) = MapImage::in_strips(mapper.map(), path, rules, picture::ROWS)?;
             let open = mapper.open_loops().filter_map(|one| mapper.at_step(one.to));
             let open: Vec<_> = open.map(|(_, pose)| pose).collect();
-            let last = picture::save_map(&map, path, &open, [pgm.path(), png.path()])?;
-            std::fs::write(yaml.path(), last.yaml(&image)).with_context(in_file(yaml.path()))?;
+            picture::save_map(&whole, strips, path, &open, [pgm.path(), png.path()])?;
+            std::fs::write(yaml.path(), whole.yaml(&image)).with_context(in_file(yaml.path()))?;
             [png, pgm, yaml].into_iter().try_for_each(Pending::put)?;
         }
         Ok(())
