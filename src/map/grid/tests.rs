@@ -6,6 +6,7 @@ mod sharing;
 use super::*;
 use crate::ops;
 use crate::sensor::BeamSensor;
+use core::hash::Hasher;
 use wide::{f64x4, i32x4};
 
 const MODEL: GridModel = GridModel {
