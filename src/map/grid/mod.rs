@@ -279,9 +279,7 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
             if !changes {
                 continue;
             }
-            let slot = Arc::make_mut(&mut self.directory).slot(ti, tj);
-            let slot = slot.expect("the directory was grown to cover the scan");
-            let tile = Arc::make_mut(slot.get_or_insert_default());
+            let tile = self.tile_mut(ti, tj).expect("the directory was grown to cover the scan");
             for (cells, marks) in tile.rows_mut().zip(marks()) {
                 for (cell, mark) in cells.iter_mut().zip(marks) {
                     let passed = if *mark == ray_trace::PASSED { pass } else { 0 };
@@ -289,7 +287,9 @@ impl<const CELLS_PER_NDT: usize> Grid<CELLS_PER_NDT> {
                     *cell = cell.saturating_add(add).max(free).min(occupied);
                 }
             }
-            if tile.is_clear(free) {
+            if tile.is_clear(free)
+                && let Some(slot) = Arc::make_mut(&mut self.directory).slot(ti, tj)
+            {
                 *slot = Some(Arc::clone(&self.clear));
             }
         }
