@@ -100,7 +100,9 @@ pub fn save_map(
     write_png(png, [whole.width, whole.height], ColorType::Rgb, |file| {
         for strip in strips {
             file.write_all(&coloured(&strip, path, open))?;
-            written = std::mem::replace(&mut written, Ok(())).and_then(|()| grey.write_all(&strip.grey));
+            if written.is_ok() {
+                written = grey.write_all(&strip.grey);
+            }
         }
         Ok(())
     })?;

@@ -32,10 +32,10 @@ fn a_clone_costs_no_memory_until_it_is_written_to() {
 #[test]
 fn what_cannot_become_freer_is_one_tile_of_all_maps() {
     let blank = Grid::<4>::new(GridModel { cell_size: 0.05, log_odds_bounds: [-2.0, 3.5], ..MODEL });
+    // Beams so dense that they pass every cell, of which five scans make one as free as can be.
+    let scan = BeamSensor::panorama(1440, 20.0, 0.0).scan(&[9.0; 1440]);
     let hall = |x: f64| {
         let mut grid = blank.blank();
-        // Beams so dense that they pass every cell, five times.
-        let scan = BeamSensor::panorama(1440, 20.0, 0.0).scan(&[9.0; 1440]);
         (0..6).for_each(|_| grid.assimilate(&Pose2::new(x, 0.02, 0.0), &scan, &()));
         grid
     };
@@ -56,7 +56,6 @@ fn what_cannot_become_freer_is_one_tile_of_all_maps() {
         use crate::save::SaveShared;
         let mut restored = Grid::restore_all(Grid::save_all(&maps)).unwrap();
         assert_eq!(unique(&[&restored[0], &restored[1]]), together);
-        let scan = BeamSensor::panorama(1440, 20.0, 0.0).scan(&[9.0; 1440]);
         for maps in [&mut maps[..], &mut restored[..]] {
             (0..6).for_each(|_| maps[1].assimilate(&Pose2::new(12.0, 0.02, 0.0), &scan, &()));
         }
