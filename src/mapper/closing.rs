@@ -12,6 +12,10 @@
 //! that look alike a path may be off by one door and agree with the map; closed there, it would be taken as certain, and the right place be
 //! out of reach when the next corner shows it.
 //!
+//! Where a step of odometry was doubted, the path may be off by as much as lies between the places that were in question; where a scan met nothing, by what wheels
+//! err. Until a loop is closed over such a step, what the robot sees is searched for as far, even where nothing contradicts: a copy of the building that is
+//! drawn beside it contradicts nothing. And it is at that step that the path gives way most.
+//!
 //! This is a heuristic. Weights are not changed, as if the move left the posterior as it is: a motion's share is within what matching leaves open,
 //! so that the scans on the way fit about as they did. A particle that is bent to a wrong place contradicts what it sees next, and its weight
 //! falls. Mapping again takes as long as the mapping so far, once for each path that is bent; it may be spread over the scans that follow, and the
@@ -40,6 +44,7 @@ use super::agreement::{AGREEMENT, Agreement};
 use super::loops::{Account, Loop};
 use super::models::Map;
 use crate::geometry::Relation;
+use crate::ops;
 use crate::particle::Particle;
 use std::collections::VecDeque;
 use std::sync::Mutex;
@@ -61,6 +66,8 @@ pub(super) struct Closings {
     bent: u32,
     /// Whether the maps were marked since the last view.
     marked: bool,
+    /// By how much the steps since the last view were doubted: standard deviations of position and heading \[m, rad\].
+    doubt: [f64; 2],
     /// How the scans are kept.
     keeping: Keeping,
 }
@@ -88,6 +95,11 @@ impl Closings {
     /// The particles' maps are marked now: [`Map::mark`].
     pub(super) fn mark(&mut self) {
         self.marked = true;
+    }
+
+    /// The pose of the next view may be off by this much besides: standard deviations of position and heading \[m, rad\].
+    pub(super) fn doubt(&mut self, stds: [f64; 2]) {
+        self.doubt = [0, 1].map(|k| ops::hypot(self.doubt[k], stds[k]));
     }
 
     /// Particles have become copies of those in these slots.
@@ -235,7 +247,7 @@ impl Closings {
         let agreement = now.agreement(&now.here());
         let is_contradicted = agreement.disputed() >= AGREEMENT.disputed;
         let closed = now.closed(&agreement).filter(|_| !is_contradicted);
-        let is_asked = closed.is_some() || (is_contradicted && searched);
+        let is_asked = closed.is_some() || searched && (is_contradicted || now.is_doubted());
         match if is_asked { now.search() } else { Place::Unclear } {
             Place::Elsewhere(pose, end) if searched => {
                 if let Some((relation, bent)) = now.bent(&pose) {

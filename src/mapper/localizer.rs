@@ -110,7 +110,7 @@ impl Localizer {
     /// The next scan, with the pose that raw odometry gives for it in any frame: see [`LaserMapper::push`].
     pub fn push(&mut self, scan: &LaserScan) -> Pushed {
         let odometry = match self.odometer.next(scan, self.settings.longest()) {
-            Ok(odometry) => odometry,
+            Ok(believed) => believed.pose,
             Err(reason) => return Pushed::Refused(reason),
         };
         let moved = self.last.map(|last| last.between(&odometry));

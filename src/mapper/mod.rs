@@ -48,8 +48,8 @@ pub use memory::Memory;
 pub use models::{CELLS_PER_NDT, Map};
 use models::{MODELS, Proposal};
 use moving::LastViews;
-use odometer::Odometer;
 pub use odometer::Unbelieved;
+use odometer::{Believed, Odometer};
 pub use remark::Remark;
 pub use replay::Replay;
 #[cfg(feature = "serde")]
@@ -188,13 +188,14 @@ impl LaserMapper {
     /// Where a path is bent to close a loop, all scans so far are mapped again: [`LaserMapperSettings::remapped_per_scan`] of them a call.
     pub fn push(&mut self, scan: &LaserScan) -> Pushed {
         match self.odometer.next(scan, self.settings.longest()) {
-            Ok(odometry) => self.push_from(scan, odometry),
+            Ok(believed) => self.push_from(scan, believed),
             Err(reason) => Pushed::Refused(reason),
         }
     }
 
     /// The next scan, taken where odometry that is believed has the robot.
-    fn push_from(&mut self, scan: &LaserScan, odometry: Pose2) -> Pushed {
+    fn push_from(&mut self, scan: &LaserScan, Believed { pose: odometry, doubt }: Believed) -> Pushed {
+        self.closings.doubt(doubt);
         let Some(last) = self.odometry.last() else {
             self.begin(scan, odometry);
             return Pushed::First;
@@ -207,6 +208,11 @@ impl LaserMapper {
         let control = self.wheels.displacement(&moved);
         self.predicted = Some(control);
         let standing = self.standing(scan, odometry);
+        if standing.hits.is_empty() {
+            // No matching corrects what the wheels err.
+            let covariance = control.covariance;
+            self.closings.doubt([covariance.m11.max(covariance.m22), covariance.m33].map(f64::sqrt));
+        }
         self.mark(driven(&moved)[0]);
         let report = self.filter.step(&control, &standing);
         self.spreads = Spreads::of(&report, &control);

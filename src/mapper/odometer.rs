@@ -8,12 +8,19 @@
 //! right, the robot is there, and odometry goes on from there. Where the robot went on as before, less is proof enough. The search continues until
 //! odometry agrees with it again.
 //!
+//! Where scans prove neither, the step stays doubted, and so does one that was put right: how far it may be off is passed on ([`Believed::doubt`]), so that
+//! loops are looked for as far, and a path that is bent to close one gives way there first.
+//!
 //! Particles have no part in it, so that a whole log can be checked before it is mapped ([`Replay`](super::Replay)).
 //!
-//! The constants were chosen on simulated drives that were spoilt in ten ways (`tests/laws`, `sense.rs`) and by jumps (`jumps.rs`), and so that no step of the
-//! three recorded logs that are at hand (Intel, ACES, Freiburg's campus) is disbelieved.
+//! The constants were chosen on simulated drives that were spoilt in ten ways (`tests/laws`, `sense.rs`) and by jumps (`jumps.rs`), how far a doubted step may be
+//! off on spoilt logs of Intel and ACES, and all of them so that no step of the three recorded logs that are at hand (these, and Freiburg's campus) is disbelieved.
 
-use super::agreement::Agreement;
+mod last;
+mod proof;
+
+use self::last::Last;
+use self::proof::{CLEAR, DISPUTED, GOES_ON, ODD, REFUTED, STANDING, STEADILY};
 use super::last_places::{LastPlaces, MAX_RANGE, errors_of_wheels, fan, is_within};
 use super::moving::{Directions, MOVING};
 use crate::error::{Range, SettingError};
@@ -23,6 +30,15 @@ use crate::ops;
 #[cfg(feature = "serde")]
 use crate::save::{self, RestoreError};
 use crate::sensor::{LaserScan, Scan};
+
+/// Where odometry has a scan, as far as it is believed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Believed {
+    /// In the frame of odometry up to the first step that is not believed.
+    pub(super) pose: Pose2,
+    /// Standard deviations of the position and the heading after the step that led there \[m, rad\], besides what matching leaves: 0 of a step that was not doubted.
+    pub(super) doubt: [f64; 2],
+}
 
 /// A step of odometry that was not believed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -72,6 +88,13 @@ const AGAIN: [f64; 3] = [0.05, 0.03, 0.1];
 /// recorded logs it corrects 11 of 0.2 rad, and 9 of 0.25 or 0.3 rad. A motion that has changed by less is steady.
 const REPAIRED: [f64; 2] = [0.35, 0.25];
 
+/// Standard deviations of a doubted step that is matched with the scans before \[m, rad\]. Where two places are in question, what lies between them is added, up
+/// to [`FARTHEST`].
+const DOUBTED: [f64; 2] = [0.5, 0.1];
+
+/// Three times this is as far as loops are looked for \[m\], and all round \[rad\].
+const FARTHEST: [f64; 2] = [4.0, 1.0];
+
 /// Why a step is doubted.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -88,33 +111,32 @@ enum Doubt {
     Differs,
 }
 
-/// What a scan must show at another place to be believed against odometry.
-struct Proof {
-    /// How much better it must fit than where odometry leads \[nats an end point\].
-    gain: f64,
-    /// The least share of its end points that are on walls.
-    fits: f64,
-    /// The largest share that the map disputes.
-    disputed: f64,
+/// A step of odometry that is doubted.
+struct Doubted {
+    why: Doubt,
+    /// Where it leads.
+    told: Pose2,
+    /// How long it took \[s\].
+    elapsed: f64,
 }
 
-/// Enough of whatever is doubted.
-const CLEAR: Proof = Proof { gain: 0.3, fits: 0.5, disputed: 0.125 };
+/// What the scans say of a doubted step.
+enum Verdict {
+    /// It is as odometry tells.
+    AsTold,
+    /// The scan was taken there.
+    Elsewhere(Pose2),
+    /// They do not tell. Where odometry leads the map disputes this share.
+    Open(f64),
+}
 
-/// Enough against odd odometry that errors of the wheels on all of the way do not explain.
-const ODD: Proof = Proof { gain: 0.05, ..CLEAR };
-
-/// Enough of a robot that is said to stand. People may walk about before it.
-const STANDING: Proof = Proof { gain: 0.05, fits: 0.8, disputed: 0.05 };
-
-/// Enough of a robot that goes on as before, where the map disputes more than [`REFUTED`] wherever errors that the filter corrects can have led.
-const GOES_ON: Proof = Proof { gain: 0.2, fits: 0.3, disputed: 1.0 };
-const REFUTED: f64 = 0.75;
-
-impl Proof {
-    fn is_given(&self, gain: f64, found: &Agreement) -> bool {
-        gain >= self.gain && found.fits >= self.fits && found.disputed() <= self.disputed
-    }
+/// What a search finds of a doubted step.
+#[derive(Default)]
+struct Found {
+    /// Where the scan was taken, if not where odometry leads.
+    elsewhere: Option<Pose2>,
+    /// [`Believed::doubt`].
+    doubt: [f64; 2],
 }
 
 /// See the module.
@@ -133,47 +155,33 @@ pub(super) struct Odometer {
     unbelieved: Vec<Unbelieved>,
 }
 
-/// The last scan.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Last {
-    time: f64,
-    /// By odometry itself.
-    told: Pose2,
-    pose: Pose2,
-    /// The motion that led there.
-    motion: Pose2,
-    elapsed: f64,
-    /// Whether the motion before it was about the same: only then does the next one follow from it.
-    steady: bool,
-}
-
 impl Odometer {
-    /// Where the robot was at the next scan, in the frame of odometry up to the first step that is not believed. A reading of `longest` \[m\] or more
-    /// met nothing.
+    /// Where the robot was at the next scan. A reading of `longest` \[m\] or more met nothing.
     ///
     /// # Errors
     /// Where what the scan says of its time or its place is not finite, or no place: see [`LaserMapper::push`](super::LaserMapper::push). It is as
     /// if that scan had not been there.
-    pub(super) fn next(&mut self, scan: &LaserScan, longest: f64) -> Result<Pose2, SettingError> {
+    pub(super) fn next(&mut self, scan: &LaserScan, longest: f64) -> Result<Believed, SettingError> {
         scan.validate()?;
         if let Some(last) = &self.last {
             let jump = last.told.distance(&scan.odometry);
             Range::number(0.0, LaserScan::FARTHEST_JUMP, "m").check("odometry since the last scan", jump)?;
         }
         let told = self.correction.map_or(scan.odometry, |correction| correction.compose(&scan.odometry));
-        let mut pose = told;
+        let (mut pose, mut doubted) = (told, [0.0; 2]);
         if let Some(last) = self.last
-            && let Some(doubt) = self.doubt(&last, scan, &told, longest)
+            && let Some(why) = self.doubt(&last, scan, &told, longest)
         {
-            let matched = self.searched(&last, scan, longest, &told, doubt);
-            self.disbelieved = matched.map(|_| doubt);
-            if let Some(matched) = matched {
+            let elapsed = scan.time - last.time;
+            let found = self.searched(&last, scan, longest, &Doubted { why, told, elapsed });
+            self.disbelieved = found.elsewhere.map(|_| why);
+            doubted = found.doubt;
+            if let Some(matched) = found.elsewhere {
                 pose = matched;
                 self.correction = Some(pose.compose(&scan.odometry.between(&Pose2::default())));
                 self.unbelieved.push(Unbelieved {
                     time: scan.time,
-                    elapsed: scan.time - last.time,
+                    elapsed,
                     told: last.pose.between(&told),
                     matched: last.pose.between(&pose),
                 });
@@ -186,7 +194,7 @@ impl Odometer {
         if self.places.take(pose, || scan.end_points(longest, MAX_RANGE)) {
             self.place = Some((pose, scan.clone()));
         }
-        Ok(pose)
+        Ok(Believed { pose, doubt: doubted })
     }
 
     pub(super) fn unbelieved(&self) -> &[Unbelieved] {
@@ -263,33 +271,64 @@ impl Odometer {
         })
     }
 
-    /// Where the scan was taken, if not where odometry leads.
-    fn searched(&mut self, last: &Last, scan: &LaserScan, longest: f64, told: &Pose2, doubt: Doubt) -> Option<Pose2> {
-        let ends = scan.end_points(longest, MAX_RANGE);
-        if ends.hits.len() < ENOUGH && doubt != Doubt::Impossible {
-            return None;
+    /// Where the scan of a doubted step was taken, and how far it may be from there.
+    fn searched(&mut self, last: &Last, scan: &LaserScan, longest: f64, step: &Doubted) -> Found {
+        let (Doubted { why, told, elapsed }, ends) = (step, scan.end_points(longest, MAX_RANGE));
+        let without_jump = last.without_jump(*elapsed, told);
+        let ahead = without_jump[0];
+        let doubt_between = |one: &Pose2, other: &Pose2| {
+            let apart = driven(&one.between(other));
+            [0, 1].map(|k| DOUBTED[k] + apart[k].min(FARTHEST[k]))
+        };
+        if ends.hits.len() < ENOUGH && *why != Doubt::Impossible {
+            let doubt = if *why == Doubt::Odd { doubt_between(&ahead, told) } else { [0.0; 2] };
+            return Found { elsewhere: None, doubt };
         }
-        let without_jump = last.without_jump(scan.time - last.time, told);
-        if doubt == Doubt::Differs && self.is_at_home(told, &without_jump, &ends) {
-            return None;
+        if *why == Doubt::Differs && self.is_at_home(told, &without_jump, &ends) {
+            return Found::default();
         }
         self.places.tighten();
-        let [ahead, turned_ahead, ..] = without_jump;
-        let best = self.places.searched([ahead, last.pose, *told].map(fan).as_flattened(), &last.pose, &ends, 0.0)?;
+        let starts = [ahead, last.pose, *told].map(fan);
+        let Some(best) = self.places.searched(starts.as_flattened(), &last.pose, &ends, 0.0) else {
+            return Found::default();
+        };
+        match self.judged(last, step, &ends, &best) {
+            Verdict::AsTold => Found::default(),
+            Verdict::Elsewhere(pose) => {
+                let is_home = self.places.is_home(&pose, &ends);
+                Found { elsewhere: Some(pose), doubt: doubt_between(if is_home { &pose } else { &ahead }, &pose) }
+            }
+            // What differs from the last place may be new, as of one step in a hundred outdoors; and before a robot that stands, people move.
+            Verdict::Open(_) if *why != Doubt::Odd => Found::default(),
+            Verdict::Open(disputed) => {
+                let on = self.near(&fan(ahead), &ahead, REPAIRED, &ends).map_or(ahead, |near| near.pose);
+                let goes_on = last.is_recent(*elapsed)
+                    && disputed > DISPUTED
+                    && self.places.agreement(&on, &ends).disputed() < disputed;
+                Found { elsewhere: goes_on.then_some(on), doubt: doubt_between(told, &best.pose) }
+            }
+        }
+    }
+
+    /// Whether the scan of a doubted step was taken where odometry leads, or at the best place that was found.
+    fn judged(&mut self, last: &Last, step: &Doubted, ends: &Scan, best: &ScoredPose) -> Verdict {
+        let Doubted { why, told, elapsed } = step;
+        let [ahead, turned_ahead, ..] = last.without_jump(*elapsed, told);
         let agrees = |with: &Pose2| {
             let ([way, turn], [position, heading, share]) = (driven(&last.pose.between(&best.pose)), AGAIN);
             is_within([position + share * way, heading + share * turn], with, &best.pose)
         };
         let count = ends.hits.len() as f64;
         let of_way = errors_of_wheels(self.places.span(told));
-        let (errors, less) = match doubt {
-            Doubt::Impossible => return Some(best.pose),
-            Doubt::Still if agrees(told) => return None,
-            Doubt::Still if is_within(REPAIRED, told, &best.pose) => return Some(best.pose),
+        let (errors, less) = match why {
+            Doubt::Impossible => return Verdict::Elsewhere(best.pose),
+            Doubt::Still if agrees(told) => return Verdict::AsTold,
+            Doubt::Still if is_within(REPAIRED, told, &best.pose) => return Verdict::Elsewhere(best.pose),
             // Rooms look alike: of two places where a scan fits about as well, it was taken where odometry leads.
             Doubt::Still => {
-                let near = self.near(&fan(*told), told, REPAIRED, &ends);
-                return Some(near.filter(|near| near.value >= best.value - ODD.gain * count).unwrap_or(best).pose);
+                let near = self.near(&fan(*told), told, REPAIRED, ends);
+                let near = near.filter(|near| near.value >= best.value - ODD.gain * count);
+                return Verdict::Elsewhere(near.unwrap_or(*best).pose);
             }
             // Errors of the wheels on all of the way are in the map of the places. Of a robot that stands the last place alone is asked.
             Doubt::Odd if !is_within(of_way, told, &best.pose) => (of_way, Some(ODD)),
@@ -297,18 +336,18 @@ impl Odometer {
             Doubt::Odd | Doubt::Differs => (REPAIRED, (last.steady && agrees(&ahead)).then_some(ODD)),
         };
         if is_within(errors, told, &best.pose) {
-            return None;
+            return Verdict::AsTold;
         }
-        let there = self.near(&fan(*told), told, errors, &ends);
-        let found = self.places.agreement(&best.pose, &ends);
+        let there = self.near(&fan(*told), told, errors, ends);
+        let found = self.places.agreement(&best.pose, ends);
         let gain = there.map_or(f64::INFINITY, |there| (best.value - there.value) / count);
+        let disputed = there.map_or(1.0, |there| self.places.agreement(&there.pose, ends).disputed());
         let goes_on = last.steady && [ahead, turned_ahead].iter().any(|pose| is_within(REPAIRED, pose, &best.pose));
-        let mut is_refuted =
-            || there.is_none_or(|there| self.places.agreement(&there.pose, &ends).disputed() > REFUTED);
         let is_proved = CLEAR.is_given(gain, &found)
             || less.is_some_and(|less| less.is_given(gain, &found))
-            || goes_on && GOES_ON.is_given(gain, &found) && is_refuted();
-        is_proved.then_some(best.pose)
+            || goes_on && GOES_ON.is_given(gain, &found) && disputed > REFUTED
+            || goes_on && *why == Doubt::Odd && last.is_recent(*elapsed) && STEADILY.is_given(gain, &found);
+        if is_proved { Verdict::Elsewhere(best.pose) } else { Verdict::Open(disputed) }
     }
 }
 
@@ -325,21 +364,5 @@ impl Odometer {
         save::finite("odometer", times.chain(unbelieved.iter().map(|step| [step.time, step.elapsed])).flatten())?;
         place.iter().try_for_each(|(_, scan)| scan.validate())?;
         places.check()
-    }
-}
-
-impl Last {
-    /// Where the robot is after so long \[s\], if it goes on as it went.
-    fn ahead(&self, elapsed: f64) -> Pose2 {
-        let times = if self.elapsed > 0.0 && elapsed >= 0.0 { (elapsed / self.elapsed).min(3.0) } else { 1.0 };
-        let Pose2 { x, y, theta } = self.motion;
-        self.pose.compose(&Pose2::new(times * x, times * y, times * theta))
-    }
-
-    /// Where it is without a jump of what is told: it goes on, or its heading does; it stays, or its heading does.
-    fn without_jump(&self, elapsed: f64, told: &Pose2) -> [Pose2; 4] {
-        let turned_as = |pose: Pose2| Pose2 { theta: pose.theta, ..*told };
-        let ahead = self.ahead(elapsed);
-        [ahead, turned_as(ahead), self.pose, turned_as(self.pose)]
     }
 }

@@ -1,5 +1,6 @@
 //! A log, pushed into a mapper.
 
+use super::odometer::Believed;
 use super::{LaserMapper, LaserMapperSettings};
 use crate::error::SettingError;
 use crate::execute::Executor;
@@ -42,7 +43,7 @@ use std::sync::Arc;
 pub struct Replay<L> {
     log: Arc<L>,
     /// Of each scan, as far as it is believed; `None` of a scan that is refused.
-    odometry: Arc<[Option<Pose2>]>,
+    odometry: Arc<[Option<Believed>]>,
     /// Numbers of the scans that the filter takes, the first included, and at the end how many scans there are.
     bounds: Arc<[usize]>,
     mapper: LaserMapper,
@@ -133,7 +134,7 @@ impl<L> Clone for Replay<L> {
 }
 
 /// Numbers of the scans that a mapper takes, the first included.
-fn taken(settings: &LaserMapperSettings, odometry: &[Option<Pose2>]) -> Vec<usize> {
+fn taken(settings: &LaserMapperSettings, odometry: &[Option<Believed>]) -> Vec<usize> {
     let mut last: Option<Pose2> = None;
     let mut takes = |pose: &Pose2| {
         let takes = last.is_none_or(|last| settings.takes(&last.between(pose)));
@@ -142,6 +143,6 @@ fn taken(settings: &LaserMapperSettings, odometry: &[Option<Pose2>]) -> Vec<usiz
         }
         takes
     };
-    let placed = odometry.iter().enumerate().filter_map(|(k, pose)| Some((k, (*pose)?)));
+    let placed = odometry.iter().enumerate().filter_map(|(k, pose)| Some((k, pose.as_ref()?.pose)));
     placed.filter(|(_, pose)| takes(pose)).map(|(k, _)| k).collect()
 }

@@ -41,7 +41,7 @@ pub struct SavedMapper {
 }
 
 /// Of the form of [`SavedMapper`] and of what is in it besides the filter.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 impl LaserMapper {
     /// The mapper's state, with which a session goes on later. What maps share is in it once.

@@ -152,6 +152,12 @@ struct LatticePoint {
 }
 
 impl CorrelativeSearch {
+    /// The same search with a step of the heading that is wide enough to look at all headings of this prior.
+    pub(crate) fn all_round(self, prior: &Gaussian3) -> Self {
+        let reach = (SEARCH_STDS * prior.covariance().m33.sqrt()).min(core::f64::consts::PI);
+        Self { angular: self.angular.max(reach / MOST_TURNS), ..self }
+    }
+
     /// The lattice within [`SEARCH_STDS`] of the prior's mean, judged coarsely.
     fn lattice<N: ScoreNear>(&self, target: &Target<'_, N>) -> Vec<LatticePoint> {
         let Self { linear, angular, most_steps, stride, .. } = *self;

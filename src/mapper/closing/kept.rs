@@ -32,6 +32,8 @@ pub(super) struct View {
     pub(super) scan: Option<Arc<KeptScan>>,
     /// Whether the maps before it were marked.
     pub(super) marked: bool,
+    /// By how much the step to it was doubted: standard deviations of position and heading \[m, rad\].
+    pub(super) doubt: [f64; 2],
 }
 
 /// A scan, in single precision: it is kept as long as the mapper is.
@@ -69,7 +71,8 @@ impl Closings {
         let distances = sorted(distances, f64::total_cmp);
         let reach = distances.get(distances.len() * 9 / 10).copied().unwrap_or(0.0);
         let marked = core::mem::take(&mut self.marked);
-        self.views.push(View { way, reach, scan: Some(KeptScan::new(scan).into()), marked });
+        let doubt = core::mem::take(&mut self.doubt);
+        self.views.push(View { way, reach, scan: Some(KeptScan::new(scan).into()), marked, doubt });
         self.keep(most);
     }
 

@@ -65,13 +65,34 @@ impl Now<'_> {
     pub(super) fn bent(&self, place: &Pose2) -> Option<(Relation, Vec<Pose2>)> {
         let relation = self.relation(place)?;
         let relations: Vec<Relation> = self.relations.iter().copied().chain([relation]).collect();
-        Some((relation, chain(self.poses).bent(&relations)?))
+        Some((relation, self.chain().bent(&relations)?))
+    }
+
+    /// Whether a step since the robot was there was doubted that no loop is closed over.
+    pub(super) fn is_doubted(&self) -> bool {
+        let is_closed = |step| self.relations.iter().any(|one| one.from < step && step <= one.to);
+        let is_open = |step: usize| self.closings.views[step].doubt != [0.0; 2] && !is_closed(step);
+        self.nearest(&self.here()).is_some_and(|from| (from + 1..=self.step()).any(is_open))
+    }
+
+    /// The path with the uncertainty that matching leaves, which grows with the root of the way, and a turn of a radian counts as a metre; and that of steps that
+    /// were doubted. What the path was bent by before is not taken off.
+    fn chain(&self) -> Chain<'_> {
+        /// What is left where the robot did not move \[m, rad\].
+        const LEAST: [f64; 2] = [1e-4, 1e-5];
+        let stds = |step: usize, motion: &Pose2| {
+            let ([way, turn], doubt) = (driven(motion), self.closings.views[step].doubt);
+            let [position, heading] = CLOSING.drift;
+            let position = position * way.sqrt() + LEAST[0] + doubt[0];
+            [position, position, heading * (way + turn).sqrt() + LEAST[1] + doubt[1]]
+        };
+        Chain::new(self.poses, stds, CLOSING.relation)
     }
 
     /// Where the robot may be as far as matching and the loops so far know.
     fn prior(&self) -> Option<Gaussian3> {
         let from = self.nearest(&self.here())?;
-        let covariance = chain(self.poses).covariance(self.relations, from, self.step())?;
+        let covariance = self.chain().covariance(self.relations, from, self.step())?;
         let (sin, cos) = ops::sin_cos(self.poses[from].theta);
         let turn = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
         Gaussian3::new(self.here(), turn * covariance * turn.transpose())
@@ -84,7 +105,7 @@ impl Now<'_> {
         // A climb asks which of two poses is better, for which every second end point will do.
         let target = Target::new(&prior, score.near(self.map, &here, &self.picture, 2), 0.0);
         let climbed = |start| hill_climb(start, CLOSING.climb, |pose, floor| target.log_posterior(pose, floor));
-        let starts = CLOSING.search.starts(&target).poses;
+        let starts = CLOSING.search.all_round(&prior).starts(&target).poses;
         let tops: Vec<ScoredPose> = sorted(starts.into_iter().map(climbed).collect(), ScoredPose::highest_first);
         let stay = target.log_posterior(&here, f64::NEG_INFINITY);
         let gain = |top: &ScoredPose| (top.value - stay) / self.picture.hits.len() as f64;
@@ -125,18 +146,4 @@ fn is_elsewhere(there: &Pose2, here: &Pose2) -> bool {
 fn are_apart(a: &Pose2, b: &Pose2) -> bool {
     let (d, CorrelativeSearch { linear, angular, .. }) = (a.minus(b), CLOSING.search);
     d.x.abs().max(d.y.abs()) > linear || d.z.abs() > 2.0 * angular
-}
-
-/// A path with the uncertainty that matching leaves: it grows with the root of the way, and a turn of a radian counts as a metre. What a path
-/// was bent by before is not taken off.
-fn chain(poses: &[Pose2]) -> Chain<'_> {
-    /// What is left where the robot did not move \[m, rad\].
-    const LEAST: [f64; 2] = [1e-4, 1e-5];
-    let stds = |motion: &Pose2| {
-        let [way, turn] = driven(motion);
-        let [position, heading] = CLOSING.drift;
-        let position = position * way.sqrt() + LEAST[0];
-        [position, position, heading * (way + turn).sqrt() + LEAST[1]]
-    };
-    Chain::new(poses, stds, CLOSING.relation)
 }

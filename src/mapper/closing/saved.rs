@@ -20,6 +20,7 @@ pub(in crate::mapper) struct SavedClosings {
     checked: usize,
     bent: u32,
     marked: bool,
+    doubt: [f64; 2],
     keeping: Keeping,
 }
 
@@ -52,6 +53,7 @@ impl Closings {
             checked: self.checked,
             bent: self.bent,
             marked: self.marked,
+            doubt: self.doubt,
             keeping: self.keeping.clone(),
         }
     }
@@ -63,11 +65,12 @@ impl Closings {
         particles: usize,
         steps: Option<usize>,
     ) -> Result<Self, RestoreError> {
-        let SavedClosings { views, before, accounts, corrections, checked, bent, marked, keeping } = saved;
+        let SavedClosings { views, before, accounts, corrections, checked, bent, marked, doubt, keeping } = saved;
         let last = steps.unwrap_or(0);
         save::count("closings.views", views.len(), steps.map_or(0, |steps| steps + 1))?;
-        for View { way, reach, scan, .. } in &views {
-            save::finite("closings.views", [*way, *reach])?;
+        save::finite("closings.doubt", doubt)?;
+        for View { way, reach, scan, doubt: [position, heading], .. } in &views {
+            save::finite("closings.views", [*way, *reach, *position, *heading])?;
             let points = scan.iter().flat_map(|scan| [&scan.origin].into_iter().chain(&scan.hits).chain(&scan.misses));
             save::finite("closings.views", points.flatten().map(|c| f64::from(*c)))?;
         }
@@ -99,6 +102,6 @@ impl Closings {
         };
         let corrections = corrections.into_iter().map(|one| one.map(&mut restored).transpose());
         let corrections = corrections.collect::<Result<_, RestoreError>>()?;
-        Ok(Self { before, views, accounts, corrections, checked, bent, marked, keeping })
+        Ok(Self { before, views, accounts, corrections, checked, bent, marked, doubt, keeping })
     }
 }
