@@ -1,8 +1,9 @@
 //! Headings that jump, once or repeatedly, in the odometry of simulated drives and of a recorded log; and odometry so noisy that each of its turns is a jump.
 //! Results *by the old rule* are those of a mapper that compared a jump with the odometry error over its last eight places.
 
+use super::log::recorded;
 use super::mapper::yard;
-use super::robots::mapped;
+use super::robots::{mapped, poses};
 use super::sense::error;
 use fastslam::geometry::Pose2;
 use fastslam::mapper::Remark;
@@ -12,9 +13,7 @@ use fastslam::random::{Purpose, Stream};
 use fastslam_lab::experiment::lap::ALPHAS;
 use fastslam_lab::experiment::log::{Example, Recipe};
 use fastslam_log::LaserLog;
-use flate2::read::GzDecoder;
 use std::f64::consts::PI;
-use std::io::Read as _;
 
 const SCANS: usize = 160;
 
@@ -152,19 +151,15 @@ fn a_smaller_jump_is_not_believed_where_a_scan_fits_better_without_it() {
 /// both were more than 9 m off, as only two fifths of the scan fit where the robot is.
 #[test]
 fn a_heading_that_jumps_once_in_a_recorded_log_is_not_believed() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/");
     for (file, at, turns, most) in [
         ("intel.clf", 182, [0.6, 1.0], 0.1),
         ("intel.clf", 364, [0.6, 1.0], 0.1),
         ("buildings/aces.clf.gz", 352, [0.6, 1.0], 0.1),
         ("buildings/freiburg-campus.clf.gz", 401, [0.4, 0.6], 0.3),
     ] {
-        let Ok(bytes) = std::fs::read(format!("{folder}{file}")) else {
-            return println!("skipped: {file} is not in ../shared/data");
-        };
-        let mut log = fastslam_log::parse(&unpacked(bytes), false).unwrap();
+        let Some(mut log) = recorded(file) else { return };
         log.scans.truncate(500);
-        let unspoilt: Vec<Pose2> = mapped(log.clone(), 1, 1).path().into_iter().map(|(_, pose)| pose).collect();
+        let unspoilt = poses(&mapped(log.clone(), 1, 1));
         for turn in turns {
             let error = error(&mapped(jumping(&log, |k| (k == at).then_some(turn)), 1, 1), &unspoilt);
             println!("{file}, {turn} rad at scan {at}: {error:.3} m");
@@ -178,10 +173,8 @@ fn a_heading_that_jumps_once_in_a_recorded_log_is_not_believed() {
 /// that was a second building beside the first, and the paths were 2 to 12 m off.
 #[test]
 fn a_loop_is_looked_for_as_far_as_doubted_steps_may_be_off() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/intel.clf");
-    let Ok(bytes) = std::fs::read(file) else { return println!("skipped: intel.clf is not in ../shared/data") };
-    let log = fastslam_log::parse(&bytes, false).unwrap();
-    let unspoilt: Vec<Pose2> = mapped(log.clone(), 1, 1).path().into_iter().map(|(_, pose)| pose).collect();
+    let Some(log) = recorded("intel.clf") else { return };
+    let unspoilt = poses(&mapped(log.clone(), 1, 1));
     let there = Pose2::new(5.0, 2.0, 1.0);
     let back = there.between(&Pose2::default());
     let stands = |k: usize, step: Pose2| if (500..545).contains(&k) { Pose2::default() } else { step };
@@ -208,10 +201,8 @@ fn a_loop_is_looked_for_as_far_as_doubted_steps_may_be_off() {
 /// for as far as wheels err on that way, and nothing said so.
 #[test]
 fn a_loop_is_looked_for_as_far_as_wheels_err_where_nothing_is_seen() {
-    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/buildings/aces.clf.gz");
-    let Ok(bytes) = std::fs::read(file) else { return println!("skipped: aces.clf.gz is not in ../shared/data") };
-    let log = fastslam_log::parse(&unpacked(bytes), false).unwrap();
-    let unspoilt: Vec<Pose2> = mapped(log.clone(), 4, 1).path().into_iter().map(|(_, pose)| pose).collect();
+    let Some(log) = recorded("buildings/aces.clf.gz") else { return };
+    let unspoilt = poses(&mapped(log.clone(), 4, 1));
     for first in [80, 150, 220, 290, 360] {
         let mut blind = log.clone();
         blind.scans[first..first + 10].iter_mut().for_each(|scan| scan.ranges.fill(0.0));
@@ -219,14 +210,4 @@ fn a_loop_is_looked_for_as_far_as_wheels_err_where_nothing_is_seen() {
         println!("from scan {first}: {error:.3} m");
         assert!(error < 0.3, "from scan {first}: {error} m");
     }
-}
-
-/// A file, packed or not.
-fn unpacked(bytes: Vec<u8>) -> Vec<u8> {
-    if !bytes.starts_with(&[0x1f, 0x8b]) {
-        return bytes;
-    }
-    let mut all = Vec::new();
-    GzDecoder::new(&bytes[..]).read_to_end(&mut all).unwrap();
-    all
 }

@@ -6,8 +6,10 @@ use fastslam::ops;
 use fastslam::random::{Purpose, Stream};
 use fastslam::sensor::longest_reading;
 use fastslam_lab::experiment::log::Example;
-use fastslam_log::{LogError, LogReader, NEAR, Relation, parse, parse_relations, relation_errors, write};
+use fastslam_log::{LaserLog, LogError, LogReader, NEAR, Relation, parse, parse_relations, relation_errors, write};
+use flate2::read::GzDecoder;
 use std::f64::consts::PI;
+use std::io::Read as _;
 use std::sync::Arc;
 
 #[path = "../../../fuzz/fuzz_targets/any_bytes.rs"]
@@ -25,6 +27,25 @@ const SMALL: &str = "# a comment\n\
     ROBOTLASER1 0 -1.5 3.0 1.5 30.0 0.01 0 3 1.0 2.0 30.0 1 77 1.3 0.0 0.1 1.0 0.0 0.1 0 0 0.5 0.5 0 11.0 nohost 1.0\r\n\
     \n\
     ODOM 2e0 0.0 0.0 0 0 0 12.0 nohost 2.0";
+
+/// A log of ../shared/data; without it a test says that it is skipped.
+pub fn recorded(file: &str) -> Option<LaserLog> {
+    let Ok(bytes) = std::fs::read(format!("{}/../../../shared/data/{file}", env!("CARGO_MANIFEST_DIR"))) else {
+        println!("skipped: {file} is not in ../shared/data");
+        return None;
+    };
+    Some(parse(&unpacked(bytes), false).unwrap())
+}
+
+/// A file, packed or not.
+fn unpacked(bytes: Vec<u8>) -> Vec<u8> {
+    if !bytes.starts_with(&[0x1f, 0x8b]) {
+        return bytes;
+    }
+    let mut all = Vec::new();
+    GzDecoder::new(&bytes[..]).read_to_end(&mut all).unwrap();
+    all
+}
 
 fn message(text: &str) -> LogError {
     parse(text.as_bytes(), false).unwrap_err()

@@ -1,7 +1,8 @@
 //! Odometry that cannot be true must not be believed: each kind of it, made of one drive through our building whose truth is known.
 
+use super::log::recorded;
 use super::mapper::yard;
-use super::robots::mapped;
+use super::robots::{mapped, poses};
 use fastslam::geometry::Pose2;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, OdometryCheck, OdometryFault, Pushed, Remark, match_scans};
 use fastslam::sensor::LaserScan;
@@ -60,7 +61,7 @@ fn spoilt_by(log: &LaserLog, spoilt: fn(usize, &[Pose2]) -> Pose2) -> LaserLog {
 }
 
 pub fn error(mapper: &LaserMapper, truth: &[Pose2]) -> f64 {
-    let path: Vec<Pose2> = mapper.path().into_iter().map(|(_, pose)| pose).collect();
+    let path = poses(mapper);
     assert_eq!(path.len(), truth.len());
     PathError::of(&path, truth).aligned
 }
@@ -341,15 +342,11 @@ fn key_scans() -> Example {
 /// robot went on, it was lost, 4.3 m; and where they were searched for elsewhere only if they did not fit there, 0.5 m off.
 #[test]
 fn scans_a_metre_apart_are_matched_without_odometry() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data/intel.clf");
-    let Ok(bytes) = std::fs::read(path) else {
-        return println!("skipped: intel.clf is not in ../shared/data");
-    };
-    let mut log = fastslam_log::parse(&bytes, false).unwrap();
+    let Some(mut log) = recorded("intel.clf") else { return };
     log.scans.truncate(300);
     let mut without = log.clone();
     match_scans(&mut without.scans);
-    let truth: Vec<Pose2> = mapped(log, 2, 1).path().into_iter().map(|(_, pose)| pose).collect();
+    let truth = poses(&mapped(log, 2, 1));
     let error = error(&mapped(without, 2, 1), &truth);
     println!("{error:.3} m");
     assert!(error < 0.4, "{error} m");
