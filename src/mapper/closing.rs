@@ -66,7 +66,7 @@ pub(super) struct Closings {
     bent: u32,
     /// Whether the maps were marked since the last view.
     marked: bool,
-    /// By how much the steps since the last view were doubted: standard deviations of position and heading \[m, rad\].
+    /// Standard deviations of position and heading \[m, rad\] that steps since the last view add, where they were doubted or nothing was seen; 0 else.
     doubt: [f64; 2],
     /// How the scans are kept.
     keeping: Keeping,

@@ -92,7 +92,7 @@ const REPAIRED: [f64; 2] = [0.35, 0.25];
 /// to [`FARTHEST`].
 const DOUBTED: [f64; 2] = [0.5, 0.1];
 
-/// Three times this is as far as loops are looked for \[m\], and all round \[rad\].
+/// Largest distance between two places that counts \[m, rad\]: three times this is as far as loops are looked for (12 m), and nearly all round.
 const FARTHEST: [f64; 2] = [4.0, 1.0];
 
 /// Why a step is doubted.

@@ -32,7 +32,7 @@ pub(super) struct View {
     pub(super) scan: Option<Arc<KeptScan>>,
     /// Whether the maps before it were marked.
     pub(super) marked: bool,
-    /// By how much the step to it was doubted: standard deviations of position and heading \[m, rad\].
+    /// Standard deviations of position and heading \[m, rad\] that steps from the last view to it add, where they were doubted or nothing was seen; 0 else.
     pub(super) doubt: [f64; 2],
 }
 

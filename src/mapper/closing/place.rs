@@ -68,7 +68,7 @@ impl Now<'_> {
         Some((relation, self.chain().bent(&relations)?))
     }
 
-    /// Whether a step since the robot was there was doubted that no loop is closed over.
+    /// Whether any step since the nearest earlier place was doubted, and no loop has been closed over it.
     pub(super) fn is_doubted(&self) -> bool {
         let is_closed = |step| self.relations.iter().any(|one| one.from < step && step <= one.to);
         let is_open = |step: usize| self.closings.views[step].doubt != [0.0; 2] && !is_closed(step);

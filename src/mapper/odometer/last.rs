@@ -2,7 +2,7 @@
 
 use crate::geometry::Pose2;
 
-/// A motion is followed for no longer than so many times what it took.
+/// A motion is extrapolated over at most this many times its own duration.
 const FORESEEN: f64 = 3.0;
 
 /// The last scan.
@@ -28,7 +28,7 @@ impl Last {
         self.pose.compose(&Pose2::new(times * x, times * y, times * theta))
     }
 
-    /// Whether it is not too long ago to say that it goes on.
+    /// Whether the last motion is recent enough, after so long \[s\], for the robot to be expected to go on.
     pub(super) fn is_recent(&self, elapsed: f64) -> bool {
         elapsed <= FORESEEN * self.elapsed
     }

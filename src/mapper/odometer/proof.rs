@@ -32,7 +32,7 @@ pub(super) const STEADILY: Proof = Proof { gain: 0.0, ..CLEAR };
 pub(super) const DISPUTED: f64 = 0.5;
 
 impl Proof {
-    /// Whether what was found is as much.
+    /// Whether a pose that gains this much \[nats an end point\] and agrees so with the map is proved.
     pub(super) fn is_given(&self, gain: f64, found: &Agreement) -> bool {
         gain >= self.gain && found.fits >= self.fits && found.disputed() <= self.disputed
     }
