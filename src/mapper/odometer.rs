@@ -76,6 +76,9 @@ const IN_COMMON: f64 = 0.2;
 /// Fewer end points are no witness against odometry.
 const ENOUGH: usize = 20;
 
+/// Where half of a scan's end points are nearer to the laser than this \[m\], someone stands right before it: such a scan fits anywhere, and is no witness.
+const COVERED: f64 = 0.5;
+
 /// Where odometry leads, a scan is at home if the map disputes less of it than this share, and more than this share of its end points are on walls: it may
 /// have much that is new.
 const AT_HOME: [f64; 2] = [0.25, 0.25];
@@ -280,7 +283,7 @@ impl Odometer {
             let apart = driven(&one.between(other));
             [0, 1].map(|k| DOUBTED[k] + apart[k].min(FARTHEST[k]))
         };
-        if ends.hits.len() < ENOUGH && *why != Doubt::Impossible {
+        if (ends.hits.len() < ENOUGH || is_covered(&ends)) && *why != Doubt::Impossible {
             let doubt = if *why == Doubt::Odd { doubt_between(&ahead, told) } else { [0.0; 2] };
             return Found { elsewhere: None, doubt };
         }
@@ -365,4 +368,10 @@ impl Odometer {
         place.iter().try_for_each(|(_, scan)| scan.validate())?;
         places.check()
     }
+}
+
+/// Whether the laser is covered: see [`COVERED`].
+fn is_covered(ends: &Scan) -> bool {
+    let is_near = |end: &&[f64; 2]| ops::hypot(end[0] - ends.origin[0], end[1] - ends.origin[1]) < COVERED;
+    2 * ends.hits.iter().filter(is_near).count() > ends.hits.len()
 }

@@ -1,6 +1,7 @@
 //! What a mapper of logs must hold to on its bad days: a crowd round the robot, people who go along with it, a laser that meets little, a robot that steps aside, and a
 //! loop so long that particles must have stayed apart until it closes. Each is a simulated log of which the truth is known; what each bar is for stands with it.
 
+use super::robots::poses;
 use fastslam::geometry::Pose2;
 use fastslam::mapper::{LaserMapper, LaserMapperSettings, LoopEnd, OdometryInnovations, Remark, Replay};
 use fastslam::motion::OdometryModel;
@@ -61,7 +62,7 @@ struct Mapped {
     error: f64,
     /// The same of raw odometry \[m\].
     odometry: f64,
-    /// The most that a step turns by more than odometry tells \[deg\].
+    /// The most that a step turns the robot away from its true heading \[deg\].
     turn: f64,
 }
 
@@ -71,25 +72,23 @@ fn mapped(recipe: &Recipe, Drive { particles, scans }: Drive) -> (Mapped, LaserL
     let settings = LaserMapperSettings { particles, seed: recipe.seed, ..LaserMapperSettings::default() };
     let mut replay = Replay::new(settings, Arc::clone(&log)).unwrap();
     replay.by_ref().for_each(drop);
-    let path: Vec<Pose2> = replay.mapper().path().into_iter().map(|(_, pose)| pose).collect();
+    let path = poses(replay.mapper());
     let raw: Vec<Pose2> = log.scans.iter().map(|scan| scan.odometry).collect();
     let found = Mapped {
         error: PathError::of(&path, &truth).aligned,
         odometry: PathError::of(&raw, &truth).aligned,
-        turn: greatest_turn(&path, &log).to_degrees(),
+        turn: greatest_turn(&path, &truth).to_degrees(),
     };
     drop(replay);
     (found, Arc::unwrap_or_clone(log))
 }
 
-/// By how much more a path turns in a step than odometry tells \[rad\], at the most.
-fn greatest_turn(path: &[Pose2], log: &LaserLog) -> f64 {
-    assert_eq!(path.len(), log.scans.len(), "a pose for each scan");
-    let turn = |k: usize| {
-        let told = log.scans[k - 1].odometry.between(&log.scans[k].odometry).theta;
-        ops::wrap_angle(path[k - 1].between(&path[k]).theta - told).abs()
-    };
-    (1..path.len()).map(turn).fold(0.0, f64::max)
+/// The most that a step adds to the error of the heading \[rad\]. What takes from it is no fault: where nothing was seen for a while, wheels have erred meanwhile.
+fn greatest_turn(path: &[Pose2], truth: &[Pose2]) -> f64 {
+    assert_eq!(path.len(), truth.len(), "a pose for each scan");
+    let begun = path[0].theta - truth[0].theta;
+    let error = |k: usize| ops::wrap_angle(path[k].theta - truth[k].theta - begun).abs();
+    (1..path.len()).map(|k| error(k) - error(k - 1)).fold(0.0, f64::max)
 }
 
 /// Share of a log's readings for which this holds.
@@ -98,11 +97,8 @@ fn share(log: &LaserLog, holds: impl Fn(f32) -> bool) -> f64 {
     readings().filter(|range| holds(**range)).count() as f64 / readings().count() as f64
 }
 
-/// Of an error that is left to be what it is.
-const NO_BAR: f64 = 0.0;
-
 /// A run of M = 8, and how many times nearer to the truth than raw odometry it is. What share of its readings is `near` must be in `told`, or it is
-/// no such log; and none of its steps turns by 5° more than odometry tells, which is off by 2.8° at the most on these ways: what a scan
+/// no such log; and none of its steps turns the robot away from its true heading by 5°, where odometry does by 3.9° at the most: what a scan
 /// happens to fit may not turn the map.
 fn times_nearer(
     name: &str,
@@ -118,14 +114,6 @@ fn times_nearer(
     assert!((told[0]..told[1]).contains(&share), "{name}, seed {seed}: {share}");
     assert!(found.turn < 5.0, "{name}, seed {seed}: {found:?}");
     found.odometry / found.error
-}
-
-/// Seeds 1 to 3. A path must be `better` times nearer to the truth than raw odometry: a mapper that loses by looking has lost.
-fn holds(name: &str, better: f64, near: f32, told: [f64; 2], recipe: impl Fn(Recipe) -> Recipe) {
-    for seed in 1..=3 {
-        let times = times_nearer(name, ROUND, seed, near, told, &recipe);
-        assert!(times > better, "{name}, seed {seed}: {times} times");
-    }
 }
 
 /// How many times nearer to the truth than raw odometry drives must be: each of them, and half of them or more.
@@ -147,15 +135,16 @@ fn a_crowd_turns_no_map_of(drive: Drive, seeds: impl IntoIterator<Item = u64>, b
     bars.hold(seeds.into_iter().map(|seed| times_nearer("crowd", drive, seed, 2.0, [0.62, 0.72], crowd)).collect());
 }
 
-/// Where nothing is taken to move, seed 2 is 2.4 times nearer.
+/// Where nothing is taken to move, seed 2 is 2.4 times nearer. In seed 29 people cover the laser; where such a scan is believed against odometry, the path is
+/// off by 9.4 m.
 #[test]
 fn a_crowd_round_the_robot_does_not_turn_the_map() {
-    a_crowd_turns_no_map_of(ALONE, 2..=3, Bars { each: 4.0, half: 4.0 });
+    a_crowd_turns_no_map_of(ALONE, [2, 3, 29], Bars { each: 4.0, half: 4.0 });
 }
 
 #[test]
 #[ignore = "breadth: sixteen seeds"]
-#[should_panic(expected = "crowd, seed 2")] // open, in issue 31: since issue 30 a step of seed 2 turns by 5.7°, and the path is off by 3 cm all the same; red as soon as that is mended
+#[should_panic(expected = "crowd, seed 16")] // open, in issue 31: a step of seed 16 turns by 5.2° from the truth, and the path is off by 6 cm all the same; red as soon as that is mended
 fn a_crowd_round_the_robot_turns_the_map_of_none_of_sixteen_seeds() {
     a_crowd_turns_no_map_of(ROUND, 1..=16, Bars { each: 4.0, half: 15.0 });
 }
@@ -191,24 +180,32 @@ fn a_laser_that_meets_little_maps_well(seeds: impl IntoIterator<Item = u64>, bar
     bars.hold(seeds.into_iter().map(|seed| times_nearer("sparse", ROUND, seed, 11.6, [0.5, 0.6], sparse)).collect());
 }
 
+/// Where it sees 7 m, 75 of its beams meet something, and none for up to eleven steps: too little to be sure of being nearer than odometry. Of twelve seeds half
+/// are off by 0.60 m or less, odometry by 0.83 m; where loops are not looked for as far as wheels err in the dark, by 1.47 m.
+fn a_laser_that_meets_nothing_for_a_while_maps_well(bars: Bars, recipe: impl Fn(Recipe) -> Recipe) {
+    let sparser = |yard| recipe(Recipe { max_range: 7.0, ..yard });
+    bars.hold((1..=3).map(|seed| times_nearer("sparser", ROUND, seed, 6.7, [0.15, 0.25], sparser)).collect());
+}
+
 #[test]
 #[ignore = "breadth: twelve seeds"]
 fn a_laser_that_meets_little_maps_well_on_twelve_seeds() {
     a_laser_that_meets_little_maps_well(1..=12, Bars { each: 1.5, half: 7.0 });
 }
 
-/// Where the laser sees 7 m, 75 of its beams meet something: too little to be nearer to the truth than odometry, and no reason to turn.
 #[test]
 fn a_laser_that_meets_little_does_not_turn_the_map() {
     a_laser_that_meets_little_maps_well(1..=3, Bars { each: 1.5, half: 4.0 });
-    holds("sparser", NO_BAR, 6.7, [0.15, 0.25], |yard| Recipe { beams: 360, max_range: 7.0, ..yard });
+    let sparser = |yard| Recipe { beams: 360, ..yard };
+    a_laser_that_meets_nothing_for_a_while_maps_well(Bars { each: 0.25, half: 0.35 }, sparser);
 }
 
 /// By two turns and a drive, a step straight to the left is a turn by 90° and one back, with the noise of both. The prior is so wide then that
 /// scans of which one beam in five met something turned these maps by 9° to 14°, with all else as it is.
 #[test]
 fn a_robot_that_steps_aside_does_not_turn_its_map() {
-    holds("aside", NO_BAR, 6.7, [0.15, 0.25], |yard| Recipe { aside: 0.4, max_range: 7.0, ..yard });
+    let aside = |yard| Recipe { aside: 0.4, ..yard };
+    a_laser_that_meets_nothing_for_a_while_maps_well(Bars { each: 0.25, half: 1.5 }, aside);
 }
 
 /// Nothing in a ring of 60 m says which of two paths is right until it closes, so until then both must live: more than one of the particles that
@@ -244,7 +241,7 @@ fn eight_particles_close_loops_of_sparse_scans_that_one_leaves_open() {
             let settings = LaserMapperSettings { particles, seed, ..LaserMapperSettings::default() };
             let mut replay = Replay::new(settings, Arc::new(log)).unwrap();
             replay.by_ref().for_each(drop);
-            let path: Vec<Pose2> = replay.mapper().path().into_iter().map(|(_, pose)| pose).collect();
+            let path = poses(replay.mapper());
             LoopErrors::of(&path, &truth).revisits_off
         };
         let off: Vec<f64> = (1..=12).map(off).collect();
@@ -458,7 +455,7 @@ fn scans_are_kept_within_their_bound_which_is_told_and_loops_still_close() {
         }
         assert!(thinned(&all).is_none());
         assert!(few.memory().scan_bytes < all.memory().scan_bytes / 2);
-        let path: Vec<Pose2> = few.path().into_iter().map(|(_, pose)| pose).collect();
+        let path = poses(&few);
         let errors = LoopErrors::of(&path, &truth);
         assert!(errors.revisits_off < 0.1, "seed {seed}: {errors:?}");
         few.closings() > 0
